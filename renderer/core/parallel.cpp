@@ -1,0 +1,24 @@
+#include "renderer/core/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace brume {
+
+int hardware_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+// Plain threads rather than TBB: the loops are few and coarse (converting a grid), and the thread sanitizer sees
+// through std::thread but not through an uninstrumented libtbb.
+void parallel_for(int n, const std::function<void(int)>& body) {
+  std::atomic<int> next = 0;
+  const auto work = [&] {
+    for (int i = next++; i < n; i = next++) body(i);
+  };
+  std::vector<std::jthread> helpers;
+  for (int k = 1; k < std::min(n, hardware_threads()); ++k) helpers.emplace_back(work);
+  work();
+}
+
+}  // namespace brume

@@ -1,0 +1,15 @@
+// The one place where a loop is spread over threads (outside the engine's own workers).
+#pragma once
+
+#include <functional>
+
+namespace brume {
+
+/// Calls body(i) for every i in [0, n), in any order, on up to all hardware threads; returns when all are done.
+/// `body` must not throw and must write only what belongs to its own i.
+void parallel_for(int n, const std::function<void(int)>& body);
+
+/// Threads the machine offers; at least 1.
+int hardware_threads();
+
+}  // namespace brume
