@@ -1,0 +1,58 @@
+// Counter-based random numbers with one named dimension per decision.
+#pragma once
+
+#include <cstdint>
+
+#include "renderer/core/vec.h"
+
+namespace brume {
+
+enum class SamplerKind {
+  Independent,  ///< every number independent of every other: what statistics assume
+  Sobol,        ///< each decision follows its own Owen-scrambled Sobol' sequence over the passes of a pixel
+};
+
+/// What a random number decides. Two decisions never share a number: the catalogue of failures has entries for
+/// renderers that used one number for the step offset and the distance, or for the light and the distance.
+enum class Decision : std::uint32_t {
+  Pixel,            // 2D: position inside the pixel
+  MarchOffset,      // where inside every segment the medium is looked up
+  ShadowOffset,     // the same on a shadow ray; per light sample
+  LightChoice,      // which light, when one is picked
+  LightPoint,       // 2D: where on the light; per light sample
+  DensityDistance,  // distance by density sampling; per light sample
+  EquiangularDistance,
+  PhaseLobe,        // which medium's phase function, where media overlap; per light sample
+  PhaseDirection,   // 2D: a direction towards an environment light; per light sample
+  BounceDistance,
+  BounceLobe,
+  BounceDirection,  // 2D
+  Roulette,
+  TechniquePhase,   // which technique a pixel starts with when they alternate between passes
+};
+
+/// Random numbers of one sample of one pixel. A pure function of its arguments: no state advances, so results do not
+/// depend on the order of calls, on threads or on tiles.
+class Sampler {
+ public:
+  Sampler(SamplerKind kind, std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample)
+      : kind_(kind), seed_(seed), pixel_(pixel), sample_(sample) {}
+
+  std::uint32_t sample() const { return sample_; }
+
+  /// In [0, 1). `bounce` counts scattered rays, `index` the light samples (or whatever repeats) at that bounce.
+  float u1(Decision decision, int bounce = 0, int index = 0) const;
+  Vec2 u2(Decision decision, int bounce = 0, int index = 0) const;
+
+  /// The same in every pass of this pixel; for choices that must be random over pixels but fixed over passes.
+  float per_pixel(Decision decision) const;
+
+ private:
+  std::uint64_t dimension_key(Decision decision, int bounce, int index) const;
+
+  SamplerKind kind_;
+  std::uint64_t seed_;
+  std::uint32_t pixel_, sample_;
+};
+
+}  // namespace brume
