@@ -1,0 +1,46 @@
+// Closed shapes that bound a medium.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "renderer/core/arena.h"
+#include "renderer/core/bounds.h"
+#include "renderer/core/ray.h"
+
+namespace brume {
+
+/// Immutable; any thread.
+class Shape {
+ public:
+  virtual ~Shape() = default;
+
+  /// The parts of the ray inside the shape and inside ray.span, in order of t, none empty. The ray's direction need
+  /// not be unit: t keeps its meaning when a ray is carried into the shape's own space.
+  virtual std::span<const Interval> intervals(const Ray& ray, Arena& arena) const = 0;
+
+  virtual Bounds3 bounds() const = 0;
+};
+
+class BoxShape final : public Shape {
+ public:
+  BoxShape(Vec3d low, Vec3d high) : low_(low), high_(high) {}
+  std::span<const Interval> intervals(const Ray& ray, Arena& arena) const override;
+  Bounds3 bounds() const override { return {low_, high_}; }
+
+ private:
+  Vec3d low_, high_;
+};
+
+class SphereShape final : public Shape {
+ public:
+  SphereShape(Vec3d center, double radius) : center_(center), radius_(radius) {}
+  std::span<const Interval> intervals(const Ray& ray, Arena& arena) const override;
+  Bounds3 bounds() const override { return {center_ - Vec3d(radius_), center_ + Vec3d(radius_)}; }
+
+ private:
+  Vec3d center_;
+  double radius_;
+};
+
+}  // namespace brume
