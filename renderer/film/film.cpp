@@ -1,0 +1,105 @@
+#include "renderer/film/film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "renderer/core/check.h"
+
+namespace brume {
+namespace {
+
+double luminance(const double rgb[3]) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }  // as in vec.h
+
+/// Factor from the sum of squared deviations to the variance of the mean.
+double variance_factor(std::uint32_t count) {
+  return count < 2 ? 0 : 1 / (static_cast<double>(count) * (static_cast<double>(count) - 1));
+}
+
+/// The variance of huge finite samples can exceed a float: it stays finite, at the largest one.
+float to_finite_float(double value) {
+  return static_cast<float>(std::min(value, static_cast<double>(std::numeric_limits<float>::max())));
+}
+
+}  // namespace
+
+void Film::resize(int width, int height) {
+  BRUME_CHECK(width, >=, 0);
+  BRUME_CHECK(height, >=, 0);
+  width_ = width;
+  height_ = height;
+  pixels_.assign(static_cast<std::size_t>(width) * height, Pixel{});
+}
+
+void Film::clear() { std::fill(pixels_.begin(), pixels_.end(), Pixel{}); }
+
+bool Film::add_sample(int x, int y, Color sample) {
+  BRUME_DCHECK(x, >=, 0);
+  BRUME_DCHECK(x, <, width_);
+  BRUME_DCHECK(y, >=, 0);
+  BRUME_DCHECK(y, <, height_);
+  if (!is_finite(sample)) return false;
+
+  Pixel& p = pixels_[static_cast<std::size_t>(y) * width_ + x];
+  p.count += 1;
+  const double inverse_count = 1.0 / p.count;
+  // delta is the deviation from the mean before this sample, delta (1 - 1/n) the one after; their product goes to M2.
+  double delta[3];
+  for (int c = 0; c < 3; ++c) {
+    delta[c] = sample[c] - p.mean[c];
+    p.mean[c] += delta[c] * inverse_count;
+    p.m2[c] += delta[c] * delta[c] * (1 - inverse_count);
+  }
+  const double delta_luminance = luminance(delta);
+  p.m2_luminance += delta_luminance * delta_luminance * (1 - inverse_count);
+  return true;
+}
+
+Color Film::mean(int x, int y) const {
+  const Pixel& p = pixel(x, y);
+  return {static_cast<float>(p.mean[0]), static_cast<float>(p.mean[1]), static_cast<float>(p.mean[2])};
+}
+
+Color Film::variance(int x, int y) const {
+  const Pixel& p = pixel(x, y);
+  const double factor = variance_factor(p.count);
+  return {to_finite_float(p.m2[0] * factor), to_finite_float(p.m2[1] * factor), to_finite_float(p.m2[2] * factor)};
+}
+
+void Film::mean_image(Image& image) const {
+  image.width = width_;
+  image.height = height_;
+  image.pixels.resize(pixels_.size());
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) image.at(x, y) = mean(x, y);
+}
+
+Image Film::mean_image() const {
+  Image image;
+  mean_image(image);
+  return image;
+}
+
+Image Film::variance_image() const {
+  Image image(width_, height_);
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) image.at(x, y) = variance(x, y);
+  return image;
+}
+
+double Film::noise_estimate() const {
+  double luminance_sum = 0, deviation_sum = 0;
+  std::size_t sampled_pixels = 0, judged_pixels = 0;
+  for (const Pixel& p : pixels_) {
+    if (p.count == 0) continue;
+    luminance_sum += luminance(p.mean);
+    sampled_pixels += 1;
+    if (p.count < 2) continue;
+    deviation_sum += std::sqrt(p.m2_luminance * variance_factor(p.count));
+    judged_pixels += 1;
+  }
+  if (judged_pixels == 0 || !(luminance_sum > 0)) return 0;
+  return deviation_sum / static_cast<double>(judged_pixels) / (luminance_sum / static_cast<double>(sampled_pixels));
+}
+
+}  // namespace brume
