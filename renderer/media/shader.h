@@ -1,0 +1,43 @@
+// What fills a volume: a scalar density (and, for fire, an emission) asked for in batches of points.
+#pragma once
+
+#include <optional>
+
+#include "renderer/core/bounds.h"
+#include "renderer/core/transform.h"
+
+namespace brume {
+
+/// n points, structure of arrays, in scene space; the arrays are readable up to the next multiple of 16 values.
+/// The points of a batch need no order.
+struct PointBatch {
+  const float* x;
+  const float* y;
+  const float* z;
+  int n;
+  float time;  ///< seconds
+};
+
+/// What a shader can say about itself before it is asked.
+struct ShaderTraits {
+  bool constant = false;               ///< density is 1 everywhere inside the bounds: a homogeneous medium
+  bool own_emission = false;           ///< emission() gives a field of its own instead of following the density
+  std::optional<float> finest_scale = {};   ///< world units: size of the smallest feature (a voxel); sets the automatic step
+  std::optional<float> max_density = {};    ///< an upper bound of the density, where there is one
+};
+
+/// A shader is immutable and may be asked from any thread, in any order, for any n.
+class Shader {
+ public:
+  virtual ~Shader() = default;
+
+  virtual ShaderTraits traits() const = 0;
+
+  /// Writes density[0..n): dimensionless, finite and >= 0. May write up to the next multiple of 16 values.
+  virtual void density(const PointBatch& points, float* density) const = 0;
+
+  /// Writes emission[0..n), dimensionless, finite and >= 0; called only when traits().own_emission.
+  virtual void emission(const PointBatch& points, float* emission) const;
+};
+
+}  // namespace brume
