@@ -1,0 +1,59 @@
+// Light sources: what the march needs of them.
+#pragma once
+
+#include <optional>
+
+#include "renderer/core/ray.h"
+
+namespace brume {
+
+/// A place on a light, chosen before the distance along the ray, so that equi-angular sampling can be about the very
+/// point that the shadow ray goes to (for a large near light the centre would be far worse).
+struct LightPoint {
+  enum class Kind {
+    Finite,       ///< `position` counts
+    Distant,      ///< `direction` counts: unit, from the scene towards the light
+    Environment,  ///< the direction is still open: the phase function draws it
+  };
+  Kind kind = Kind::Finite;
+  Vec3 position;
+  Vec3 direction;
+};
+
+/// Light arriving at a point from a LightPoint.
+struct IncidentLight {
+  Vec3 wi;           ///< unit, from the point towards the light
+  float distance;    ///< world units; infinite for distant lights
+  Color irradiance;  ///< normal irradiance, W/m^2, divided by the pdf of the light point, before any transmittance
+};
+
+/// A ray meeting a light that the camera can see.
+struct LightHit {
+  float t;         ///< infinite for environments
+  Color radiance;  ///< W/(sr m^2)
+};
+
+/// Immutable; any thread.
+class Light {
+ public:
+  virtual ~Light() = default;
+
+  /// @param u  uniform in [0,1)^2
+  virtual LightPoint sample_point(Vec2 u) const = 0;
+
+  /// What `x` receives from `point`; only for Finite and Distant points. Not finite when x is the light point itself.
+  virtual IncidentLight incident(const LightPoint& point, Vec3 x) const = 0;
+
+  /// The part of the ray that `point` can light at all (one side of a quad, the inside of a cone).
+  virtual Interval lit_part(const LightPoint& point, const Ray& ray) const;
+
+  /// Radiance of an environment; black for every other light.
+  virtual Color environment_radiance() const { return {}; }
+
+  /// Where a ray hits the light and what it sees there.
+  virtual std::optional<LightHit> hit(const Ray& ray) const;
+
+  bool visible_to_camera = false;
+};
+
+}  // namespace brume

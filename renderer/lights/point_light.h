@@ -1,0 +1,19 @@
+#pragma once
+
+#include "renderer/lights/light.h"
+
+namespace brume {
+
+/// Radiates the same radiant intensity (W/sr) in all directions from one point.
+class PointLight final : public Light {
+ public:
+  PointLight(Vec3 position, Color intensity) : position_(position), intensity_(intensity) {}
+  LightPoint sample_point(Vec2) const override;
+  IncidentLight incident(const LightPoint& point, Vec3 x) const override;
+
+ private:
+  Vec3 position_;
+  Color intensity_;
+};
+
+}  // namespace brume

@@ -1,0 +1,11 @@
+#include "renderer/phase/isotropic.h"
+
+#include "renderer/sampling/warps.h"
+
+namespace brume {
+
+float Isotropic::value(float) const { return kInv4Pi; }
+
+PhaseSample Isotropic::sample(Vec3, Vec2 u) const { return {uniform_sphere(u), uniform_sphere_pdf()}; }
+
+}  // namespace brume
