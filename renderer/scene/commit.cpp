@@ -1,0 +1,130 @@
+#include <algorithm>
+
+#include "renderer/lights/registry.h"
+#include "renderer/phase/registry.h"
+#include "renderer/scene/scene.h"
+#include "renderer/scene/volume.h"
+
+namespace brume {
+
+ParamTable scene_table(const Family& render_family) {
+  return {"scene",
+          "Scene",
+          "Everything that a picture depends on.",
+          {},
+          {{"camera", "Camera", "Where the picture is taken from.", &camera_family()},
+           {"film", "Film", "The size of the picture and how it is shown.", &film_family()},
+           {"render", "Render", "How light is computed.", &render_family},
+           {"volumes", "Volumes", "Smoke, fire, cloud and fog.", &volume_family(), true},
+           {"lights", "Lights", "What lights the volumes.", &light_family(), true}}};
+}
+
+namespace {
+
+/// "volumes.plume" or "volumes.0"
+std::string element_path(const char* list, std::size_t index, const Node& node) {
+  const std::string& name = node.text("name");
+  return std::string(list) + "." + (name.empty() ? std::to_string(index) : name);
+}
+
+Error at(const std::string& path, Error error) {
+  error.source.key = error.source.key.empty() ? path : path + "." + error.source.key;
+  return error;
+}
+
+using Volumes = std::vector<MadeVolume>;
+
+Result<Volumes> make_volumes(const Node& description, Vec3d origin, GridCache& grids, const LoadOptions& options) {
+  Volumes volumes;
+  const auto nodes = description.list("volumes");
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!nodes[i].flag("enabled")) continue;
+    auto volume = make_volume(nodes[i], origin, grids, options);
+    if (!volume) return at(element_path("volumes", i, nodes[i]), volume.error());
+    volumes.push_back(std::move(*volume));
+  }
+  return volumes;
+}
+
+Bounds3 bounds_of(const Volumes& volumes) {
+  Bounds3 all;
+  for (const MadeVolume& v : volumes) all.add(v.bounds);
+  return all;
+}
+
+SceneNeeds needs_of(const Scene& scene) {
+  SceneNeeds needs;
+  for (const Medium& m : scene.media) {
+    if (!is_grey(m.sigma_t) || !is_grey(m.sigma_s)) needs.channels = 3;
+    needs.emission |= m.emits();
+    needs.lookups |= !m.traits.constant;
+  }
+  needs.overlap = scene.media.size() > 1;
+  for (const auto& light : scene.lights)
+    needs.equiangular |= light->sample_point({0.5f, 0.5f}).kind == LightPoint::Kind::Finite;
+  return needs;
+}
+
+/// The finest scale of the media; any number where no medium is marched.
+float automatic_step(const Scene& scene) {
+  float step = std::numeric_limits<float>::infinity();
+  for (const Medium& m : scene.media)
+    if (m.traits.finest_scale) step = std::min(step, *m.traits.finest_scale);
+  if (std::isfinite(step)) return step;
+  return scene.bounds.empty() ? 1.0f : static_cast<float>(scene.bounds.diagonal() / 100);
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const Scene>> commit(const Node& description, GridCache& grids, const CommitOptions& options) {
+  const LoadOptions load{.progress = options.progress, .cancel = options.cancel};
+  auto scene = std::make_shared<Scene>();
+  scene->generation = options.generation;
+  scene->film = read_film_settings(description.child("film"));
+  scene->render = read_render_settings(description.child("render"));
+
+  auto volumes = make_volumes(description, {}, grids, load);
+  if (!volumes) return volumes.error();
+  scene->bounds = bounds_of(*volumes);
+  // Near the world's origin coordinates stay as written.
+  if (!scene->bounds.empty() && length(scene->bounds.center()) > 16 * scene->bounds.diagonal()) {
+    scene->origin = scene->bounds.center();
+    volumes = make_volumes(description, scene->origin, grids, load);
+    if (!volumes) return volumes.error();
+    scene->bounds = bounds_of(*volumes);
+  }
+  for (MadeVolume& v : *volumes) {
+    scene->media.push_back(std::move(v.medium));
+    scene->phases.push_back(std::move(v.phase));
+    scene->warnings.insert(scene->warnings.end(), v.warnings.begin(), v.warnings.end());
+  }
+
+  const auto lights = description.list("lights");
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (!lights[i].flag("enabled")) continue;
+    auto light = make_light(lights[i], scene->origin);
+    if (!light) return at(element_path("lights", i, lights[i]), light.error());
+    scene->lights.push_back(std::move(*light));
+  }
+
+  auto camera = make_camera(description.child("camera"), scene->origin);
+  if (!camera) return at("camera", camera.error());
+  scene->camera = *camera;
+
+  scene->needs = needs_of(*scene);
+  scene->step_size = scene->render.step_size.value_or(automatic_step(*scene));
+  scene->shadow_step_size = scene->render.shadow_step_size.value_or(scene->step_size);
+  return std::shared_ptr<const Scene>(std::move(scene));
+}
+
+std::string SceneNeeds::to_string() const {
+  std::string text = channels == 1 ? "grey" : "chromatic";
+  text += lookups ? ", heterogeneous" : ", homogeneous";
+  if (overlap) text += ", overlapping";
+  if (emission) text += ", glowing";
+  text += time ? ", moving" : ", static";
+  text += surfaces ? ", surfaces" : ", no surfaces";
+  return text;
+}
+
+}  // namespace brume

@@ -1,0 +1,52 @@
+// Typed settings of a scene, read from its description.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "renderer/params/node.h"
+#include "renderer/sampling/sampler.h"
+
+namespace brume {
+
+/// Which densities the distances of light samples are drawn from.
+enum class DistanceSampling { Density, Equiangular, Mis };
+
+enum class MisHeuristic { Balance, Power };
+
+enum class LightSelection {
+  All,  ///< every light gets light_samples shadow rays
+  One,  ///< every shadow ray picks one light, all with the same probability
+};
+
+struct RenderSettings {
+  std::string integrator;
+  DistanceSampling distance_sampling;
+  MisHeuristic mis_heuristic;
+  std::optional<float> step_size;         ///< world units; none: the finest scale of the media
+  std::optional<float> shadow_step_size;  ///< world units; none: the step size
+  int bounces;
+  int light_samples;
+  LightSelection light_selection;
+  bool russian_roulette;
+  SamplerKind sampler;
+  std::uint64_t seed;
+  float time;  ///< seconds
+};
+
+struct FilmSettings {
+  int width, height;
+};
+
+/// The parameters that integrators of the decoupled kind share; an integrator's table is made of what it uses.
+std::vector<Param> march_params();     ///< step_size, shadow_step_size
+std::vector<Param> sampling_params();  ///< distance_sampling, mis_heuristic, light_samples, light_selection
+std::vector<Param> path_params();      ///< bounces, russian_roulette, sampler, seed
+
+/// @param node  of an integrator's table; parameters that it does not have get the value that means "none"
+RenderSettings read_render_settings(const Node& node);
+
+const Family& film_family();
+FilmSettings read_film_settings(const Node& node);
+
+}  // namespace brume

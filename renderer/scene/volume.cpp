@@ -1,0 +1,154 @@
+#include "renderer/scene/volume.h"
+
+#include "renderer/core/check.h"
+#include "renderer/geometry/shape_params.h"
+#include "renderer/media/registry.h"
+#include "renderer/phase/registry.h"
+
+namespace brume {
+namespace {
+
+const Family& transform_family() {
+  static const ParamTable table{
+      "transform",
+      "Transform",
+      "From the volume's own space to the world: scaled, then rotated about x, y, z, then moved.",
+      {param::vector("translate", "Move", 0, 0, 0).in("world units").slider(-10, 10).says("Shift in world space."),
+       param::vector("rotate_deg", "Rotate", 0, 0, 0).slider(-180, 180).in("degrees").says("Turns about x, then y, then z."),
+       param::vector("scale", "Scale", 1, 1, 1).slider(0.1, 10).says("Stretch along each axis; negative mirrors, 0 is refused."),
+       param::matrix("matrix", "Matrix").says("A 4x4 affine matrix by rows that replaces the three above when given.")},
+      {}};
+  static const Family family{"transform", "", {&table}};
+  return family;
+}
+
+ParamTable volume_table(const ShaderType& shader) {
+  ParamTable table{shader.key, shader.label, shader.doc, {}, {}};
+  auto& p = table.params;
+  p.push_back(param::text("name", "Name").says("Name by which --set and the panels address the volume."));
+  p.push_back(param::flag("enabled", "On", true).says("Whether the volume is there."));
+  for (const Param& own : shader.params) p.push_back(own);
+  p.push_back(param::number("density_scale", "Density scale", 1)
+                  .at_least(0)
+                  .log_slider(0.01, 1000)
+                  .in("1/world unit")
+                  .says("Extinction where the shader's density is 1."));
+  p.push_back(param::color("albedo", "Albedo", 0.9, 0.9, 0.9)
+                  .between(0, 1)
+                  .says("Share of the extinction that scatters; the rest absorbs."));
+  p.push_back(param::color("sigma_s", "Scattering", 1, 1, 1)
+                  .slider(0, 10)
+                  .auto_by_default("the albedo")
+                  .says("Scattering coefficient for a scaled density of 1; overrides the albedo."));
+  p.push_back(param::color("sigma_a", "Absorption", 0, 0, 0)
+                  .slider(0, 10)
+                  .auto_by_default("1 - albedo")
+                  .says("Absorption coefficient for a scaled density of 1; overrides the albedo."));
+  p.push_back(param::number("emission_scale", "Emission scale", 0)
+                  .at_least(0)
+                  .log_slider(0.01, 1000)
+                  .in("W/(sr m^3)")
+                  .says("Radiance emitted per unit length where the emission field is 1; 0 is no glow."));
+  p.push_back(param::color("emission_color", "Emission colour", 1, 1, 1)
+                  .slider(0, 1)
+                  .says("Colour that multiplies the emission scale."));
+  if (!shader.brings_bounds)
+    table.slots.push_back({"bounds", "Bounds", "Shape outside which there is nothing.", &shape_family()});
+  table.slots.push_back({"phase", "Phase function", "Which way light goes on after scattering.", &phase_family()});
+  table.slots.push_back({"transform", "Transform", "Where the volume stands.", &transform_family()});
+  return table;
+}
+
+/// The tables, in the order of shader_types().
+const std::vector<ParamTable>& volume_tables() {
+  static const std::vector<ParamTable> tables = [] {
+    std::vector<ParamTable> all;
+    for (const ShaderType& t : shader_types()) all.push_back(volume_table(t));
+    return all;
+  }();
+  return tables;
+}
+
+const ShaderType& shader_of(const Node& volume) {
+  for (std::size_t i = 0; i < volume_tables().size(); ++i)
+    if (&volume_tables()[i] == &volume.table()) return shader_types()[i];
+  BRUME_CHECK(volume.kind(), ==, "a volume");
+  return shader_types().front();
+}
+
+Result<Affined> world_from_local(const Node& transform) {
+  const auto wrong = [](const char* key, const std::string& message) {
+    return bad_input(message, {"", 0, 0, std::string("transform.") + key});
+  };
+  if (const Numbers& m = transform.numbers("matrix"); !m.empty()) {
+    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
+      return wrong("matrix", "found a last row other than 0, 0, 0, 1, expected an affine matrix by rows");
+    Affined affine;
+    for (int i = 0; i < 3; ++i) {
+      const double* row = &m[static_cast<std::size_t>(4 * i)];
+      affine.row[i] = {row[0], row[1], row[2]};
+      affine.offset[i] = row[3];
+    }
+    if (!inverse(affine)) return wrong("matrix", "found a matrix that flattens space, expected an invertible one");
+    return affine;
+  }
+  const Affined affine =
+      translation(transform.vec3("translate")) * rotation_deg(transform.vec3("rotate_deg")) * scaling(transform.vec3("scale"));
+  if (!inverse(affine))
+    return wrong("scale", "found " + format_value(transform.value("scale")) + ", expected no component to be 0");
+  return affine;
+}
+
+/// density_scale and albedo are the shorthand of sigma_s and sigma_a; this is where they become coefficients.
+void set_coefficients(const Node& volume, Medium& medium) {
+  const float scale = static_cast<float>(volume.number("density_scale"));
+  const Color albedo = volume.color("albedo");
+  const Color sigma_s = volume.is_auto("sigma_s") ? albedo : volume.color("sigma_s");
+  const Color sigma_a = volume.is_auto("sigma_a") ? Color(1) - albedo : volume.color("sigma_a");
+  medium.sigma_s = sigma_s * scale;
+  medium.sigma_t = (sigma_s + sigma_a) * scale;
+  medium.emission = volume.color("emission_color") * static_cast<float>(volume.number("emission_scale"));
+}
+
+}  // namespace
+
+const Family& volume_family() {
+  static const Family family = [] {
+    Family f{"volume", "shader", {}};
+    for (const ParamTable& t : volume_tables()) f.tables.push_back(&t);
+    return f;
+  }();
+  return family;
+}
+
+Result<MadeVolume> make_volume(const Node& volume, Vec3d scene_origin, GridCache& grids, const LoadOptions& options) {
+  const auto placed = world_from_local(volume.child("transform"));
+  if (!placed) return placed.error();
+  const Affined local_from_scene = *inverse(translation(-scene_origin) * *placed);
+
+  auto made = shader_of(volume).make(volume, {local_from_scene, grids, options});
+  if (!made) return made.error();
+  if (!made->shape) {
+    auto shape = make_shape(volume.child("bounds"));
+    if (!shape) {
+      Error error = shape.error();
+      error.source.key = "bounds." + error.source.key;
+      return error;
+    }
+    made->shape = std::move(*shape);
+    made->shape_from_scene = local_from_scene;
+  }
+
+  MadeVolume out;
+  out.bounds = transform_bounds(*inverse(made->shape_from_scene), made->shape->bounds());
+  out.medium.traits = made->shader->traits();
+  out.medium.shader = std::move(made->shader);
+  out.medium.shape = std::move(made->shape);
+  out.medium.shape_from_scene = made->shape_from_scene.cast<float>();
+  set_coefficients(volume, out.medium);
+  out.phase = make_phase(volume.child("phase"));
+  out.warnings = std::move(made->warnings);
+  return out;
+}
+
+}  // namespace brume
