@@ -1,0 +1,54 @@
+// Distances drawn in proportion to what the medium scatters.
+#pragma once
+
+#include "renderer/march/march_record.h"
+
+namespace brume {
+
+/// A distance along the ray with the density it was drawn with.
+struct DistanceSample {
+  float t;      ///< world units
+  float pdf_t;  ///< per world unit; > 0
+};
+
+/// The state of the ray at a distance t, read off the record in O(log n).
+template <int C>
+struct RayPoint {
+  float t;
+  int segment;
+  Spectrum<C> sigma_s;
+  Spectrum<C> transmittance;  ///< from the start of the record
+};
+
+/// The segment that holds t, by binary search.  @param t  inside record.span()
+template <int C>
+int find_segment(const MarchRecord<C>& record, float t);
+
+template <int C>
+RayPoint<C> evaluate(const MarchRecord<C>& record, float t, int segment);
+
+template <int C>
+RayPoint<C> evaluate(const MarchRecord<C>& record, float t) {
+  return evaluate(record, t, find_segment(record, t));
+}
+
+/// Density sampling: pdf(t) = sum_c weight_c sigma_s_c(t) T_c(t) / sum_i P_i, normalised over the record.
+/// For one channel the estimator sigma_s T / pdf is then the same number for every t. With several it is the balance
+/// heuristic over "draw the distance for channel c" (weights at most 1 / weight_c).
+/// Needs record.scattered() > 0.
+template <int C>
+class DensitySampling {
+ public:
+  explicit DensitySampling(const MarchRecord<C>& record) : record_(record) {}
+
+  /// Segment by binary search in the CDF, then the exponential of that segment inverted.  @param u in [0,1)
+  DistanceSample sample(float u) const;
+
+  /// The same function for any point of the ray.
+  float pdf(const RayPoint<C>& point) const;
+
+ private:
+  const MarchRecord<C>& record_;
+};
+
+}  // namespace brume

@@ -1,0 +1,41 @@
+// Distances drawn in proportion to 1/r^2 from a point of a light.
+#pragma once
+
+#include "renderer/core/ray.h"
+#include "renderer/march/density_sampling.h"
+
+namespace brume {
+
+/// Equi-angular sampling of a span of a ray about a pivot: pdf(t) = D / (d_theta (D^2 + s^2)), where s = t - foot is
+/// measured from the foot of the pivot on the ray and D is the pivot's distance from the ray.
+/// Kulla & Fajardo 2012, "Importance Sampling Techniques for Path Tracing in Participating Media", section 3 (their
+/// proceedings print negates exponents in equation 8; the authors' page corrects it; not used here).
+///
+/// Written without differences of nearly equal angles: with a, b the span's ends measured from the foot,
+///   d_theta = atan2(D (b - a), D^2 + a b),
+/// and where the foot lies outside the span
+///   s = a + tan(phi) (D^2 + a^2) / (D - a tan(phi)),  phi = u d_theta.
+/// A pivot on the ray (D = 0) is taken as if it were 1e-7 of the span away from it, by sample() and pdf() alike. Where
+/// even so the angle vanishes, both are uniform.
+class EquiangularSampling {
+ public:
+  /// @param span  world units, not empty
+  EquiangularSampling(const Ray& ray, Vec3 pivot, Interval span);
+
+  /// @param u  in [0,1)
+  DistanceSample sample(float u) const;
+
+  /// Per world unit; 0 outside the span.
+  float pdf(float t) const;
+
+ private:
+  double pdf_at(double s) const;
+
+  Interval span_;
+  double foot_;     // t of the pivot's foot
+  double distance_; // D
+  double a_, b_;    // ends of the span from the foot
+  double d_theta_;  // angle under which the pivot sees the span; 0: uniform
+};
+
+}  // namespace brume

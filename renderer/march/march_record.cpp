@@ -1,0 +1,151 @@
+#include "renderer/march/march_record.h"
+
+#include <algorithm>
+
+namespace brume {
+
+int segment_count(float length, float& step, MarchCounts& counts) {
+  const float exact = length / step;
+  if (exact > kMaxSegments) {
+    step = length / kMaxSegments;
+    ++counts.capped;
+    return kMaxSegments;
+  }
+  // A remainder below 1e-4 of a step is rounding, not a segment.
+  return std::max(1, static_cast<int>(std::ceil(exact - 1e-4f)));
+}
+
+namespace {
+
+/// A part of the ray in which the same media are present.
+struct Stretch {
+  Interval span;
+  int first;     // segment
+  int count;     // segments
+  float step;
+  bool uniform;  // all its media are homogeneous (or there are none): nothing to look up
+};
+
+bool contains(std::span<const Interval> intervals, float t) {
+  return std::any_of(intervals.begin(), intervals.end(), [t](Interval i) { return t > i.begin && t < i.end; });
+}
+
+/// The presence of every medium along one ray.
+struct Presence {
+  std::span<std::span<const Interval>> of_medium;
+  std::span<float> edges;  // where any medium begins or ends, ascending
+};
+
+Presence find_presence(std::span<const Medium> media, const Ray& ray, Arena& arena) {
+  Presence presence;
+  presence.of_medium = arena.alloc_span<std::span<const Interval>>(media.size());
+  std::size_t edge_count = 0;
+  for (std::size_t m = 0; m < media.size(); ++m) {
+    presence.of_medium[m] = media[m].intervals(ray, arena);
+    edge_count += 2 * presence.of_medium[m].size();
+  }
+  presence.edges = arena.alloc_span<float>(edge_count);
+  std::size_t e = 0;
+  for (const auto& intervals : presence.of_medium)
+    for (const Interval i : intervals) presence.edges[e++] = i.begin, presence.edges[e++] = i.end;
+  std::sort(presence.edges.begin(), presence.edges.end());
+  const auto end = std::unique(presence.edges.begin(), presence.edges.end());
+  presence.edges = presence.edges.first(static_cast<std::size_t>(end - presence.edges.begin()));
+  return presence;
+}
+
+/// Positions at which a stretch is looked up, one per segment.
+PointBatch lookup_points(const Stretch& stretch, const float* t, const Ray& ray, const MarchSettings& settings, Arena& arena) {
+  const auto n = static_cast<std::size_t>(stretch.count);
+  const auto x = arena.alloc_span<float>(n), y = arena.alloc_span<float>(n), z = arena.alloc_span<float>(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const float at = t[i] + settings.offset * (t[i + 1] - t[i]);
+    x[i] = ray.origin.x + ray.direction.x * at;
+    y[i] = ray.origin.y + ray.direction.y * at;
+    z[i] = ray.origin.z + ray.direction.z * at;
+  }
+  return {x.data(), y.data(), z.data(), stretch.count, settings.time};
+}
+
+void add_scaled(float* sum, const float* values, float scale, int n) {
+  for (int i = 0; i < n; ++i) sum[i] += scale * values[i];
+}
+
+}  // namespace
+
+template <int C>
+MarchRecord<C> record(std::span<const Medium> media, const RecordContents& contents, const Ray& ray,
+                      const MarchSettings& settings, Arena& arena, MarchCounts& counts) {
+  MarchRecord<C> rec;
+  const Presence presence = find_presence(media, ray, arena);
+  if (presence.edges.size() < 2) return rec;
+
+  const auto stretches = arena.alloc_span<Stretch>(presence.edges.size() - 1);
+  for (std::size_t s = 0; s < stretches.size(); ++s) {
+    Stretch& stretch = stretches[s];
+    stretch = {{presence.edges[s], presence.edges[s + 1]}, rec.n, 1, settings.step, true};
+    const float middle = 0.5f * (stretch.span.begin + stretch.span.end);
+    for (std::size_t m = 0; m < media.size(); ++m)
+      if (!media[m].traits.constant && contains(presence.of_medium[m], middle)) stretch.uniform = false;
+    if (!stretch.uniform) stretch.count = segment_count(stretch.span.length(), stretch.step, counts);
+    rec.n += stretch.count;
+  }
+  counts.segments += static_cast<std::uint64_t>(rec.n);
+
+  const auto n = static_cast<std::size_t>(rec.n);
+  const auto zeros = [&] {
+    float* values = arena.alloc_span<float>(n).data();
+    std::fill_n(values, n, 0.0f);
+    return values;
+  };
+  for (int c = 0; c < C; ++c) rec.sigma_t[static_cast<std::size_t>(c)] = zeros(), rec.sigma_s[static_cast<std::size_t>(c)] = zeros();
+  if (contents.emission)
+    for (float*& channel : rec.emission) channel = zeros();
+  if (contents.overlap) {
+    rec.medium_density = arena.alloc_span<float*>(media.size()).data();
+    for (std::size_t m = 0; m < media.size(); ++m) rec.medium_density[m] = zeros();
+  }
+  float* t = arena.alloc_span<float>(n + 2).data();  // distribute() reads whole vectors from t + 1
+  for (const Stretch& s : stretches)
+    for (int i = 0; i < s.count; ++i) t[s.first + i] = s.span.begin + static_cast<float>(i) * s.step;
+  t[n] = stretches.back().span.end;
+  rec.t = t;
+
+  for (const Stretch& stretch : stretches) {
+    const ArenaScope scope(arena);
+    const float middle = 0.5f * (stretch.span.begin + stretch.span.end);
+    const auto first = static_cast<std::size_t>(stretch.first), count = static_cast<std::size_t>(stretch.count);
+    // One look-up in the middle will do for a homogeneous stretch; constant shaders are not asked at all.
+    const PointBatch points = stretch.uniform ? PointBatch{} : lookup_points(stretch, t + first, ray, settings, arena);
+    const std::span<float> density = arena.alloc_span<float>(count);
+    for (std::size_t m = 0; m < media.size(); ++m) {
+      const Medium& medium = media[m];
+      if (!contains(presence.of_medium[m], middle)) continue;
+      if (medium.traits.constant) {
+        std::fill(density.begin(), density.end(), 1.0f);
+      } else {
+        medium.shader->density(points, density.data());
+        counts.lookups += count;
+      }
+      for (int c = 0; c < C; ++c) {
+        const auto channel = static_cast<std::size_t>(c);
+        add_scaled(rec.sigma_t[channel] + first, density.data(), medium.sigma_t[c], stretch.count);
+        add_scaled(rec.sigma_s[channel] + first, density.data(), medium.sigma_s[c], stretch.count);
+      }
+      if (contents.overlap) add_scaled(rec.medium_density[m] + first, density.data(), 1.0f, stretch.count);
+      if (!contents.emission || !medium.emits()) continue;
+      if (medium.traits.own_emission) {
+        medium.shader->emission(points, density.data());
+        counts.lookups += count;
+      }
+      for (int c = 0; c < 3; ++c)
+        add_scaled(rec.emission[static_cast<std::size_t>(c)] + first, density.data(), medium.emission[c], stretch.count);
+    }
+  }
+  return rec;
+}
+
+template MarchRecord<1> record<1>(std::span<const Medium>, const RecordContents&, const Ray&, const MarchSettings&, Arena&, MarchCounts&);
+template MarchRecord<3> record<3>(std::span<const Medium>, const RecordContents&, const Ray&, const MarchSettings&, Arena&, MarchCounts&);
+
+}  // namespace brume

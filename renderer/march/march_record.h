@@ -1,0 +1,73 @@
+// First step of the decoupled march: the medium along a ray, written down once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "renderer/core/arena.h"
+#include "renderer/core/spectrum.h"
+#include "renderer/media/medium.h"
+
+namespace brume {
+
+/// What marching has cost so far.
+struct MarchCounts {
+  std::uint64_t lookups = 0;   ///< points asked of shaders
+  std::uint64_t segments = 0;  ///< recorded on camera and scattered rays
+  std::uint64_t capped = 0;    ///< stretches whose step was raised to stay within kMaxSegments
+};
+
+struct MarchSettings {
+  float step;    ///< world units, > 0
+  float offset;  ///< in [0,1): where inside every segment of this ray the medium is looked up
+  float time;    ///< seconds
+};
+
+/// A stretch of medium with more steps than this is marched with a longer step, and counted: the volume never ends in
+/// mid-air.
+inline constexpr int kMaxSegments = 1 << 16;
+
+/// The ray's medium as n segments in which every coefficient is constant. Arrays live in the arena of the scope that
+/// was open when record() was called.
+///
+/// The first block is written by record(), the second by distribute().
+template <int C>
+struct MarchRecord {
+  int n = 0;                           ///< segments; 0 when the ray meets no medium
+  const float* t = nullptr;            ///< [n + 1] edges, ascending, world units; stretches of empty space count
+  std::array<float*, C> sigma_t = {};  ///< [n] per world unit
+  std::array<float*, C> sigma_s = {};
+  std::array<float*, 3> emission = {};  ///< [n] W/(sr m^3); null where no medium emits
+  float** medium_density = nullptr;     ///< [media][n]; null unless several media may share a point
+
+  std::array<float*, C> tau = {};     ///< [n + 1] optical depth from t[0] to each edge
+  std::array<float*, C> length = {};  ///< [n] integral of the transmittance over the segment: T_i (1 - exp(-tau_i)) / sigma_t
+  const float* cdf = nullptr;         ///< [n + 1] running sum of P_i, not normalised
+  Spectrum<C> weight = {};            ///< of the channels in P_i
+
+  bool empty() const { return n == 0; }
+  Interval span() const { return {t[0], t[n]}; }
+  /// Sum of all P_i: the part of the light that scatters once along the ray, averaged over the channels.
+  float scattered() const { return cdf[n]; }
+};
+
+/// What a record of this scene must hold.
+struct RecordContents {
+  bool emission = false;
+  bool overlap = false;  ///< keep each medium's density, to mix their phase functions
+};
+
+/// Splits the ray's stretches of medium into segments with fixed edges at begin + i * step (the last one shorter; one
+/// segment where the medium is homogeneous) and looks every segment up once, at begin + (i + offset) * step. The offset
+/// is the ray's only random number: one per ray and not one per step, because the exponential of a noisy optical depth
+/// is too bright on average, and independent steps make it noisier.
+/// Unbiased where segments are homogeneous; otherwise biased by what the medium varies inside a step.
+/// Kulla 2011, "Decoupled Ray-marching of Heterogeneous Participating Media".
+template <int C>
+MarchRecord<C> record(std::span<const Medium> media, const RecordContents& contents, const Ray& ray,
+                      const MarchSettings& settings, Arena& arena, MarchCounts& counts);
+
+/// Parts of a stretch of `length` when marched at `step`, at most kMaxSegments.
+int segment_count(float length, float& step, MarchCounts& counts);
+
+}  // namespace brume
