@@ -1,0 +1,149 @@
+#include "renderer/engine/first_look.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "renderer/core/check.h"
+#include "renderer/integrators/registry.h"
+#include "renderer/lights/registry.h"
+#include "renderer/march/shadow_march.h"
+#include "renderer/scene/framing.h"
+#include "renderer/scene/volume.h"
+
+namespace brume {
+namespace {
+
+/// Optical depths (mean of the channels) of a grid of camera rays, 0 for those that miss every medium.
+std::vector<float> optical_depths(const Scene& scene, int columns, int rows) {
+  std::vector<float> depths;
+  Arena arena;
+  MarchCounts counts;
+  const float aspect = static_cast<float>(scene.film.width) / static_cast<float>(scene.film.height);
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      const Ray ray = scene.camera.ray((static_cast<float>(x) + 0.5f) / static_cast<float>(columns),
+                                       (static_cast<float>(y) + 0.5f) / static_cast<float>(rows), aspect);
+      const ArenaScope scope(arena);
+      const auto tau = shadow_optical_depth<3>(scene.media, ray, {scene.step_size, 0.5f, scene.render.time}, arena, counts);
+      depths.push_back((tau[0] + tau[1] + tau[2]) / 3);
+    }
+  return depths;
+}
+
+/// Two significant digits: a value that people can read and change.
+double two_digits(double v) {
+  if (!(v > 0)) return v;
+  const double unit = std::pow(10.0, std::floor(std::log10(v)) - 1);
+  return std::round(v / unit) * unit;
+}
+
+std::string short_number(double v) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", v);
+  return text;
+}
+
+void must(const Result<void>& done) {
+  if (!done) BRUME_CHECK(done.error().to_string(), ==, "no error");
+}
+
+Node& add(Node& scene, const char* list, const Family& family, const char* kind, const char* name) {
+  Node& node = scene.list(list).emplace_back(*family.find(kind));
+  must(node.set("name", std::string(name)));
+  return node;
+}
+
+/// A warm key from the upper right in front and a cool rim from behind on the left.
+void add_lights(Node& scene) {
+  Node& key = add(scene, "lights", light_family(), "directional", "key");
+  must(key.set("direction", Numbers{-0.7, 0.6, -0.8}));
+  must(key.set("irradiance", Numbers{9, 8.2, 7}));
+  Node& rim = add(scene, "lights", light_family(), "directional", "rim");
+  must(rim.set("direction", Numbers{0.8, -0.7, -0.1}));
+  must(rim.set("irradiance", Numbers{2.2, 3, 4.5}));
+}
+
+}  // namespace
+
+double density_scale_for(const Scene& scene, double target) {
+  std::vector<float> depths = optical_depths(scene, 64, 64);
+  std::erase_if(depths, [](float tau) { return !(tau > 0); });
+  if (depths.empty()) return 0;
+  const auto p90 = depths.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(depths.size() - 1));
+  std::nth_element(depths.begin(), p90, depths.end());
+  return target / static_cast<double>(*p90);
+}
+
+Result<FirstLook> first_look(const std::string& path, GridCache& grids, const LoadOptions& options) {
+  const auto infos = list_grids(path, false);
+  if (!infos) return infos.error();
+  const auto density = guess_density_grid(*infos);
+  const auto flame = guess_emission_grid(*infos);
+  if (!density && !flame) {
+    std::vector<std::string> names;
+    for (const GridInfo& info : *infos) names.push_back(info.name + " (" + info.why_not + ")");
+    return bad_input("found no grid that can be rendered among: " + join(names) + "; expected a float fog volume", {path, 0, 0, ""});
+  }
+
+  FirstLook look{Node(*scene_family().tables.front()), {}};
+  Node& scene = look.description;
+  Node& volume = add(scene, "volumes", volume_family(), "vdb", "volume");
+  must(volume.set("file", path));
+  must(volume.set("grid", density.value_or("")));
+  add_lights(scene);
+  must(scene.child("render").set("bounces", std::int64_t{1}));
+  if (density) look.notes.push_back("density from the grid \"" + *density + "\"");
+  if (flame) {
+    must(volume.set("emission_grid", *flame));
+    must(volume.set("emission_scale", 8.0));
+    must(volume.set("emission_color", Numbers{1, 0.42, 0.12}));
+    look.notes.push_back("glow from the grid \"" + *flame + "\"");
+  }
+
+  // Framed from the front, a little from above.
+  Node& camera = scene.child("camera");
+  auto made = make_volume(volume, {}, grids, options);
+  if (!made) return made.error();
+  must(camera.set("look_at", Numbers{0, 0, 0}));
+  must(camera.set("position", Numbers{0.25, -1, 0.2}));
+  const Numbers& resolution = scene.child("film").numbers("resolution");
+  frame_bounds(camera, made->bounds, resolution[0] / resolution[1]);
+
+  const auto committed = commit(scene, grids, {.generation = 0, .progress = options.progress, .cancel = options.cancel});
+  if (!committed) return committed.error();
+  constexpr double kTargetOpticalDepth = 4;  // dense enough to have a lit and a dark side, thin enough to see into
+  const double scale = two_digits(density_scale_for(**committed, kTargetOpticalDepth));
+  if (scale > 0 && std::isfinite(scale)) {
+    must(volume.set("density_scale", scale));
+    look.notes.push_back("density scaled by " + short_number(scale) + " so that most of it has an optical depth below 4");
+  }
+  return look;
+}
+
+std::optional<std::string> explain_black(const Scene& scene, const Picture& picture) {
+  float brightest = 0;
+  for (const Color& c : picture.image.pixels) brightest = std::max(brightest, max_channel(c));
+  if (brightest > 1e-3f) return std::nullopt;
+
+  if (scene.media.empty()) return "There is no volume that is switched on: add one, or drop a .vdb file here.";
+  if (scene.lights.empty() && !scene.needs.emission)
+    return "No light is switched on and nothing glows: add a light, or raise emission_scale.";
+  const std::vector<float> depths = optical_depths(scene, 32, 32);
+  const float deepest = *std::max_element(depths.begin(), depths.end());
+  if (deepest == 0) {
+    float density = 0;
+    for (const Medium& m : scene.media) density = std::max(density, max_channel(m.sigma_t));
+    if (density == 0) return "The density scale is 0: raise density_scale.";
+    return "The camera sees no volume: press F to frame everything.";
+  }
+  if (deepest < 0.05f) {
+    const float middle = depths[depths.size() / 2 + 16];
+    return "The optical depth through the middle is " + short_number(middle) + " and nowhere above " + short_number(deepest) +
+           ": raise density_scale by about " + short_number(two_digits(4 / deepest)) + " times.";
+  }
+  const bool scatters = std::any_of(scene.media.begin(), scene.media.end(), [](const Medium& m) { return !is_black(m.sigma_s); });
+  if (!scatters && !scene.needs.emission) return "The medium absorbs everything: raise its albedo.";
+  return "The brightest value is " + short_number(brightest) + ": raise the exposure or the lights.";
+}
+
+}  // namespace brume

@@ -1,0 +1,68 @@
+#include "renderer/engine/pass.h"
+
+#include <atomic>
+
+namespace brume {
+namespace {
+
+constexpr int kTileSize = 32;  // pixels; small enough to share evenly, large enough to keep its voxels in the cache
+
+struct Grid {
+  int width, height;
+  int columns() const { return (width + kTileSize - 1) / kTileSize; }
+  int rows() const { return (height + kTileSize - 1) / kTileSize; }
+};
+
+/// Calls pixel(x, y, worker) for every pixel.  @return false when it was cancelled
+template <class Pixel>
+bool for_each_pixel(const Grid& grid, WorkerPool& pool, const Cancelled& cancelled, const Pixel& pixel) {
+  std::atomic<bool> stopped = false;
+  pool.run(grid.columns() * grid.rows(), [&](int tile, Worker& worker) {
+    const int x0 = tile % grid.columns() * kTileSize, y0 = tile / grid.columns() * kTileSize;
+    for (int y = y0; y < std::min(y0 + kTileSize, grid.height); ++y) {
+      if (stopped || (cancelled && cancelled())) {
+        stopped = true;
+        return;
+      }
+      for (int x = x0; x < std::min(x0 + kTileSize, grid.width); ++x) pixel(x, y, worker);
+    }
+  });
+  return !stopped;
+}
+
+/// Sample number `sample` of the pixel (x, y) of a picture of width x height.
+Color sample_pixel(const Scene& scene, const Integrator& integrator, const Grid& grid, int x, int y, std::uint32_t sample,
+                   Worker& worker) {
+  const auto pixel = static_cast<std::uint32_t>(y * grid.width + x);
+  const Sampler sampler(scene.render.sampler, scene.render.seed, pixel, sample);
+  const Vec2 inside = sampler.u2(Decision::Pixel);
+  const float width = static_cast<float>(grid.width), height = static_cast<float>(grid.height);
+  const Ray ray = scene.camera.ray((static_cast<float>(x) + inside.x) / width, (static_cast<float>(y) + inside.y) / height, width / height);
+  SampleContext context{scene, sampler, worker.arena, worker.statistics};
+  return integrator.radiance(ray, context);
+}
+
+}  // namespace
+
+bool render_pass(const Scene& scene, const Integrator& integrator, std::uint32_t sample, Film& film, WorkerPool& pool,
+                 const Cancelled& cancelled) {
+  const Grid grid{film.width(), film.height()};
+  return for_each_pixel(grid, pool, cancelled, [&](int x, int y, Worker& worker) {
+    if (!film.add_sample(x, y, sample_pixel(scene, integrator, grid, x, y, sample, worker))) ++worker.statistics.non_finite;
+  });
+}
+
+bool render_coarse(const Scene& scene, const Integrator& integrator, int width, int height, int divisor, Image& image,
+                   WorkerPool& pool, const Cancelled& cancelled) {
+  const Grid grid{(width + divisor - 1) / divisor, (height + divisor - 1) / divisor};
+  image = Image(grid.width, grid.height);
+  return for_each_pixel(grid, pool, cancelled, [&](int x, int y, Worker& worker) {
+    const Color c = sample_pixel(scene, integrator, grid, x, y, 0, worker);
+    if (is_finite(c))
+      image.at(x, y) = c;
+    else
+      ++worker.statistics.non_finite;
+  });
+}
+
+}  // namespace brume

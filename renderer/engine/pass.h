@@ -1,0 +1,26 @@
+// One sample per pixel of one scene.
+#pragma once
+
+#include <functional>
+
+#include "renderer/engine/worker_pool.h"
+#include "renderer/film/film.h"
+#include "renderer/integrators/integrator.h"
+
+namespace brume {
+
+/// Asked once per row of a tile, from every worker; true gives the pass up.
+using Cancelled = std::function<bool()>;
+
+/// Adds sample number `sample` to every pixel of the film, whose size is the picture's. A pixel's samples depend on
+/// the scene, its position and the sample number only, so any number of threads gives the same bits.
+/// @return false when it was cancelled; the film then holds part of the pass
+bool render_pass(const Scene& scene, const Integrator& integrator, std::uint32_t sample, Film& film, WorkerPool& pool,
+                 const Cancelled& cancelled);
+
+/// A picture of the same view, smaller by `divisor` in width and height (rounded up), one sample per pixel.
+/// @param width, height  of the full picture.  @return false when it was cancelled
+bool render_coarse(const Scene& scene, const Integrator& integrator, int width, int height, int divisor, Image& image,
+                   WorkerPool& pool, const Cancelled& cancelled);
+
+}  // namespace brume

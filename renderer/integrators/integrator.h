@@ -1,0 +1,46 @@
+// From a camera ray to its radiance.
+#pragma once
+
+#include "renderer/core/arena.h"
+#include "renderer/march/march_record.h"
+#include "renderer/sampling/sampler.h"
+#include "renderer/scene/scene.h"
+
+namespace brume {
+
+/// What rendering has cost so far; one per thread, added up afterwards.
+struct RayStatistics {
+  std::uint64_t rays = 0;         ///< camera and scattered rays
+  std::uint64_t shadow_rays = 0;
+  std::uint64_t non_finite = 0;   ///< samples dropped because they were NaN or infinite
+  MarchCounts march;
+
+  RayStatistics& operator+=(const RayStatistics& other);
+};
+
+/// What one camera ray met, for probes and the medium's diagnosis.
+struct RayDiagnostics {
+  Color optical_depth;  ///< of the camera ray, per channel
+  Color transmittance{1};
+  int segments = 0;
+};
+
+/// Everything that computing one sample may touch.
+struct SampleContext {
+  const Scene& scene;
+  const Sampler& sampler;
+  Arena& arena;
+  RayStatistics& statistics;
+  RayDiagnostics* diagnostics = nullptr;  ///< absent: nothing is written
+};
+
+/// An integrator has no state: the scene holds the settings. Any thread.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+
+  /// Radiance arriving at the ray's origin, W/(sr m^2). May be not finite: the caller drops and counts it.
+  virtual Color radiance(const Ray& camera_ray, SampleContext& context) const = 0;
+};
+
+}  // namespace brume
