@@ -1,0 +1,330 @@
+#include "app/cli/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+
+#include "app/cli/console.h"
+#include "app/cli/docs.h"
+#include "app/cli/info.h"
+#include "app/cli/probe.h"
+#include "app/cli/render.h"
+#include "app/cli/schema.h"
+#include "app/cli/snapshot.h"
+#include "app/window/run_window.h"
+#include "renderer/core/simd.h"
+
+namespace brume {
+namespace {
+
+/// Thrown out of CLI11's parser by flags whose value is wrong; never leaves this file.
+struct BadFlag {
+  Error error;
+};
+
+/// CLI11's help with a usage line of our own and room for long flags.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  explicit HelpFormatter(std::string usage) : usage_("Usage: " + std::move(usage) + "\n") {
+    column_width(30);
+    label("Positionals", "Arguments");
+  }
+  std::string make_usage(const CLI::App*, std::string) const override { return usage_; }
+  std::string make_option_name(const CLI::Option* option, bool positional) const override {
+    const std::string name = CLI::Formatter::make_option_name(option, positional);  // "-o,--output"
+    const auto comma = name.find(',');
+    return comma == std::string::npos ? name : name.substr(0, comma) + ", " + name.substr(comma + 1);
+  }
+
+ private:
+  std::string usage_;
+};
+
+/// A subcommand, ready to be parsed; `run` reads the options that the parser filled in.
+struct Command {
+  CLI::App* app;
+  std::function<Result<ExitCode>()> run;
+};
+
+CLI::App* add_command(CLI::App& root, const std::string& name, const std::string& doc, const std::string& usage,
+                      const std::string& examples = "") {
+  CLI::App* app = root.add_subcommand(name, doc);
+  app->group("Commands");
+  app->formatter(std::make_shared<HelpFormatter>("brume " + name + " " + usage));
+  app->set_help_flag("-h,--help", "This text");
+  if (!examples.empty()) app->footer(examples);
+  return app;
+}
+
+/// "Samples per pixel (default 16)", from the flag's description, which its value is read and checked with as well.
+std::string help_of(const Param& p) {
+  std::vector<std::string> details;
+  if (!p.unit.empty()) details.push_back(p.unit);
+  std::string usual = p.automatic ? *p.automatic : format_value(p.default_value);
+  if (p.type == ParamType::Resolution) {  // as people type it
+    const Numbers& size = std::get<Numbers>(p.default_value);
+    usual = format_value(size[0]) + "x" + format_value(size[1]);
+  }
+  details.push_back("default " + usual);
+  return p.doc + " (" + join(details, "; ") + ")";
+}
+
+void add_value(CLI::App& app, const std::string& placeholder, const Param& p, const std::function<void(const Value&)>& take) {
+  const std::string flag = "--" + p.key;
+  app.add_option_function<std::string>(
+         flag,
+         [p, flag, take](const std::string& text) {
+           const auto value = parse_value(p, text);
+           if (!value) throw BadFlag{bad_input(value.error().message, {"", 0, 0, flag})};
+           if (!std::holds_alternative<Auto>(*value)) take(*value);
+         },
+         help_of(p))
+      ->option_text(placeholder);
+}
+
+int to_int(const Value& value) { return static_cast<int>(std::get<std::int64_t>(value)); }
+
+void add_threads(CLI::App& app, int& threads) {
+  const Param p = param::integer("threads", "Threads", 1).between(1, 1024).auto_by_default("one per core").says("Render threads");
+  add_value(app, "N", p, [&threads](const Value& v) { threads = to_int(v); });
+}
+
+void add_file(CLI::App& app, std::string& file) {
+  app.add_option("FILE", file, "Scene (.json), grids (.vdb, .nvdb), or a picture that Brume wrote (.exr, .png)")
+      ->required()
+      ->option_text(" ");
+}
+
+/// A flag that is short for --set.
+void add_shorthand(CLI::App& app, SceneOptions& scene, const std::string& flag, const std::string& placeholder,
+                   const std::string& key, const std::string& doc) {
+  app.add_option_function<std::string>(
+         flag, [&scene, flag, key](const std::string& text) { scene.settings.push_back({flag, key, text}); }, doc)
+      ->option_text(placeholder);
+}
+
+/// --set, applied before the shorthands that are added after it.
+void add_settings(CLI::App& app, SceneOptions& scene) {
+  app.add_option_function<std::vector<std::string>>(
+         "--set",
+         [&scene](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) {
+             auto setting = parse_setting(text);
+             if (!setting) throw BadFlag{setting.error()};
+             scene.settings.push_back(std::move(*setting));
+           }
+         },
+         "Changes a value of the scene, for example render.bounces=2\nor lights.key.intensity=40,40,40; may be repeated")
+      ->option_text("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void add_seed(CLI::App& app, SceneOptions& scene) {
+  add_shorthand(app, scene, "--seed", "N", "render.seed", "Seed of the random numbers (default: the scene's)");
+}
+
+Command make_render(CLI::App& root) {
+  auto o = std::make_shared<RenderOptions>();
+  CLI::App* app = add_command(root, "render", "Renders a scene to a picture", "FILE -o OUT.exr|OUT.png [OPTIONS]",
+                              "Same scene, seed and samples give the same bits at any number of threads.\n"
+                              "Ctrl+C finishes the pass under way and saves the picture.\n\n"
+                              "Examples:\n"
+                              "  brume render scenes/smoke.json -o smoke.exr --spp 64\n"
+                              "  brume render smoke.vdb -o smoke.png --time 10 --size 1280x720\n"
+                              "  brume render smoke.png -o more.png --set render.bounces=4 --stats more.json");
+  add_file(*app, o->scene.file);
+  app->add_option("-o,--output", o->output, "Picture to write: .exr (linear values) or .png (display values);\nthe scene is kept inside")
+      ->required()
+      ->option_text("OUT");
+  add_value(*app, "N", param::integer("spp", "Samples", kDefaultSamples).between(1, 1 << 24).says("Samples per pixel"),
+            [o](const Value& v) { o->samples = to_int(v); });
+  add_value(*app, "SECONDS",
+            param::number("time", "Time", 1).between(1e-3, 1e7).auto_by_default("--spp decides").in("seconds of rendering")
+                .says("Renders for about this long"),
+            [o](const Value& v) { o->seconds = std::get<double>(v); });
+  add_settings(*app, o->scene);
+  add_shorthand(*app, o->scene, "--size", "WxH", "film.resolution", "Size of the picture in pixels (default: the scene's)");
+  add_seed(*app, o->scene);
+  add_threads(*app, o->threads);
+  app->add_option("--stats", o->statistics_file, "Writes what it took as JSON: times in seconds, counts, memory in bytes")
+      ->option_text("FILE.json");
+  return {app, [o]() -> Result<ExitCode> {
+            if (o->samples && o->seconds)
+              return bad_input("found --spp as well, expected one of the two", {"", 0, 0, "--time"});
+            return run_render(*o);
+          }};
+}
+
+Command make_probe(CLI::App& root) {
+  auto o = std::make_shared<ProbeOptions>();
+  CLI::App* app = add_command(
+      root, "probe", "Measures the light along one ray, as JSON", "FILE --ray=ox,oy,oz,dx,dy,dz [OPTIONS]",
+      "Samples are independent whatever sampler the scene names, so that the standard errors mean what they say.\n"
+      "Radiance in W/(sr m^2); segments are those of the ray; lookups, rays and shadow_rays are means per sample\n"
+      "and count scattered rays too.\n\n"
+      "Example:\n"
+      "  brume probe scenes/fog.json --ray=0,-6,1,0,1,0 --samples 65536 --set render.bounces=0");
+  add_file(*app, o->scene.file);
+  app->add_option_function<std::string>(
+         "--ray",
+         [o](const std::string& text) {
+           if (const auto done = parse_ray(text, *o); !done) throw BadFlag{done.error()};
+         },
+         "Origin and direction, world units; the direction is normalised")
+      ->required()
+      ->option_text("OX,OY,OZ,DX,DY,DZ");
+  add_value(*app, "T", param::number("tmin", "Begin", 0).between(0, 1e15).in("world units").says("Where the ray begins"),
+            [o](const Value& v) { o->t_min = std::get<double>(v); });
+  add_value(*app, "T",
+            param::number("tmax", "End", 1).between(0, 1e15).auto_by_default("no end").in("world units").says("Where the ray ends"),
+            [o](const Value& v) { o->t_max = std::get<double>(v); });
+  add_value(*app, "N",
+            param::integer("samples", "Samples", static_cast<std::int64_t>(o->samples)).between(1, 0x1p32).says("Samples; an odd number is rounded up"),
+            [o](const Value& v) { o->samples = static_cast<std::uint64_t>(std::get<std::int64_t>(v)); });
+  add_settings(*app, o->scene);
+  add_seed(*app, o->scene);
+  add_threads(*app, o->threads);
+  return {app, [o] { return run_probe(*o); }};
+}
+
+Command make_snapshot(CLI::App& root) {
+  struct Options {
+    SceneOptions scene;
+    SnapshotOptions snapshot;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* app = add_command(root, "snapshot", "Draws the whole interface into a PNG, without a display",
+                              "FILE -o UI.png [OPTIONS]",
+                              "Example:\n  brume snapshot scenes/smoke.json -o smoke_ui.png --size 1920x1080 --spp 64");
+  add_file(*app, o->scene.file);
+  app->add_option("-o,--output", o->snapshot.output, "Picture to write (.png)")->required()->option_text("UI.png");
+  add_value(*app, "WxH",
+            param::resolution("size", "Size", o->snapshot.width, o->snapshot.height).between(64, 8192).in("pixels").says("Size of the interface"),
+            [o](const Value& v) {
+              o->snapshot.width = static_cast<int>(std::get<Numbers>(v)[0]);
+              o->snapshot.height = static_cast<int>(std::get<Numbers>(v)[1]);
+            });
+  add_value(*app, "N", param::integer("spp", "Samples", o->snapshot.samples).between(1, 1 << 24).says("Samples per pixel of the rendered view"),
+            [o](const Value& v) { o->snapshot.samples = to_int(v); });
+  add_settings(*app, o->scene);
+  return {app, [o] { return run_snapshot_command(o->scene, o->snapshot); }};
+}
+
+Command make_info(CLI::App& root) {
+  auto o = std::make_shared<InfoOptions>();
+  CLI::App* app = add_command(root, "info", "Tells what a scene or a grid file holds", "FILE [--json]",
+                              "Lengths are in world units.\n\nExamples:\n  brume info smoke.vdb\n  brume info scenes/smoke.json --json");
+  add_file(*app, o->file);
+  app->add_flag("--json", o->json, "As JSON");
+  return {app, [o] { return run_info(*o); }};
+}
+
+std::vector<Command> make_commands(CLI::App& root) {
+  std::vector<Command> commands{make_render(root), make_probe(root), make_snapshot(root), make_info(root)};
+  commands.push_back({add_command(root, "schema", "Prints the JSON Schema of scene files, for editors", "> brume.schema.json"), run_schema});
+  commands.push_back({add_command(root, "docs", "Prints every parameter of a scene, as Markdown", "> parameters.md"), run_docs});
+  return commands;
+}
+
+// ---- What was typed wrongly -----------------------------------------------------------------------------------------
+
+std::string see_help(const CLI::App* chosen) {
+  return "; see brume " + (chosen ? chosen->get_name() + " " : "") + "--help";
+}
+
+/// @param arguments  that nobody wanted, not empty
+Error unexpected(const CLI::App& app, const std::vector<std::string>& arguments, const CLI::App* chosen) {
+  const std::string& first = arguments.front();
+  if (!first.starts_with('-') || first == "-")
+    return bad_input("found \"" + first + "\", expected nothing more" + see_help(chosen));
+  std::vector<std::string> flags;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) flags.push_back("-" + name);
+  }
+  return bad_input(unknown_name("flag", first.substr(0, first.find('=')), flags) + see_help(chosen));
+}
+
+Error usage_error(const CLI::App& root, const CLI::ParseError& e, const CLI::App* chosen) {
+  const CLI::App& app = chosen ? *chosen : root;
+  if (const auto extras = app.remaining(true); !extras.empty()) return unexpected(app, extras, chosen);
+  std::string message = e.what();  // "--output is required"
+  while (message.ends_with('\n') || message.ends_with('.')) message.pop_back();
+  return bad_input(message + see_help(chosen));
+}
+
+/// A first word that is neither a command nor a file; it may be meant as either.
+Result<void> check_file(const std::string& file, const std::vector<Command>& commands) {
+  std::error_code unknown;
+  if (std::filesystem::exists(file, unknown)) return {};
+  if (std::filesystem::path(file).has_extension() || file.find('/') != std::string::npos)
+    return bad_input("there is no such file", {file, 0, 0, ""});
+  std::vector<std::string> names;
+  for (const Command& command : commands) names.push_back(command.app->get_name());
+  return bad_input(unknown_name("command", file, names) + ", and there is no such file" + see_help(nullptr));
+}
+
+Result<ExitCode> parse_and_run(int argc, char** argv) {
+  CLI::App root("Brume lights smoke, fire, cloud and fog by decoupled ray-marching.");
+  root.formatter(std::make_shared<HelpFormatter>("brume [FILE]                     opens the window\n"
+                                                 "       brume COMMAND FILE [OPTIONS]"));
+  root.set_help_flag("-h,--help", "This text; brume COMMAND --help tells more");
+  root.set_version_flag("--version", "brume " BRUME_VERSION, "The program's version");
+  std::string file;
+  root.add_option("FILE", file, "Scene (.json) or grids (.vdb, .nvdb) to open")->option_text(" ");
+  root.require_subcommand(0, 1);
+  const std::vector<Command> commands = make_commands(root);
+  // After the commands, which would take the text over.
+  root.footer(
+      "Examples:\n"
+      "  brume smoke.vdb\n"
+      "  brume render scenes/smoke.json -o smoke.png\n\n"
+      "Exit codes: 0 done, 1 internal error, 2 bad input, 3 a check did not hold, 130 interrupted by Ctrl+C.\n"
+      "The environment variable BRUME_SIMD names the vector instructions to use: " +
+      join(simd_levels()) + ".");
+
+  const auto chosen = [&]() -> const Command* {
+    for (const Command& command : commands)
+      if (command.app->parsed()) return &command;
+    return nullptr;
+  };
+  try {
+    root.parse(argc, argv);
+  } catch (const CLI::Success& e) {  // --help, --version
+    root.exit(e, std::cout, std::cerr);
+    return ExitCode::Ok;
+  } catch (const CLI::ParseError& e) {
+    const Command* command = chosen();
+    if (!command && !file.empty())
+      if (auto done = check_file(file, commands); !done) return done.error();
+    return usage_error(root, e, command ? command->app : nullptr);
+  } catch (const BadFlag& bad) {
+    return bad.error;
+  }
+
+  if (const Command* command = chosen()) {
+    if (!file.empty()) return bad_input("found \"" + file + "\" before " + command->app->get_name() + ", expected one of the two");
+    return command->run();
+  }
+  if (file.empty()) return static_cast<ExitCode>(run_window(std::nullopt));
+  if (auto done = check_file(file, commands); !done) return done.error();
+  return static_cast<ExitCode>(run_window(file));
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  Result<ExitCode> result = ExitCode::Ok;
+  try {
+    result = parse_and_run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    result = Error{ErrorCode::Internal, "the machine has not enough memory for this"};
+  } catch (const std::exception& e) {
+    result = Error{ErrorCode::Internal, e.what()};
+  }
+  if (result) return static_cast<int>(*result);
+  print_error(result.error());
+  return static_cast<int>(exit_code_of(result.error()));
+}
+
+}  // namespace brume

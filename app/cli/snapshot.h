@@ -1,0 +1,13 @@
+// brume snapshot: the whole interface as a picture.
+#pragma once
+
+#include "app/cli/exit_code.h"
+#include "app/cli/scene_options.h"
+#include "app/headless/snapshot.h"
+
+namespace brume {
+
+/// @param scene  its file and settings go into the snapshot's options
+Result<ExitCode> run_snapshot_command(const SceneOptions& scene, SnapshotOptions options);
+
+}  // namespace brume

@@ -1,0 +1,51 @@
+#include "app/headless/snapshot.h"
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "app/panels/main_window.h"
+#include "app/session/load_scene.h"
+#include "app/ui/stage.h"
+#include "app/ui/ui_fonts.h"
+#include "renderer/film/image_io.h"
+
+namespace brume {
+namespace {
+
+Image8 as_image(const Stage& stage) {
+  Image8 image(stage.width(), stage.height(), 4);
+  image.bytes = stage.pixels();
+  return image;
+}
+
+}  // namespace
+
+Result<void> run_snapshot(const SnapshotOptions& options) {
+  auto stage = Stage::create({.width = options.width, .height = options.height, .font_paths = ui_font_paths()});
+  if (!stage) return stage.error();
+
+  GridCache grids;
+  auto loaded = load_scene(options.file, grids, {});
+  if (!loaded) return loaded.error();
+  for (const auto& [key, value] : options.overrides)
+    if (auto done = set_by_path(loaded->description, key, value); !done) return done;
+
+  Session session({.max_samples = options.samples});
+  session.start(loaded->description, loaded->scene_path);
+  MainWindow window(session, (*stage)->gl());
+  const auto draw = [&](const Gl&) { window.draw(); };
+
+  // Frames go on, as in a window, until the picture has all its samples and has been drawn.
+  for (bool finished = false; !finished;) {
+    const auto shown = session.picture();
+    finished = shown && shown->finished && session.scene() && session.idle() && shown->generation == session.scene()->generation;
+    (*stage)->frame(draw);
+    if (!session.problem().empty()) return bad_input(session.problem());
+    if (!finished) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  (*stage)->frame(draw);
+  return write_png(options.output, as_image(**stage));
+}
+
+}  // namespace brume

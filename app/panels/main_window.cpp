@@ -1,0 +1,279 @@
+#include "app/panels/main_window.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/panels/inspector.h"
+#include "app/panels/outliner.h"
+#include "app/panels/status_bar.h"
+#include "app/ui/keys.h"
+#include "app/ui/widgets.h"
+
+namespace brume {
+namespace {
+
+constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
+                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                    ImGuiWindowFlags_NoTitleBar;
+
+struct Shortcut {
+  const char *keys, *what;
+};
+constexpr Shortcut kHelp[] = {{"Left drag", "orbit"},
+                              {"Middle drag", "pan"},
+                              {"Right drag, wheel", "dolly"},
+                              {"F", "frame everything"},
+                              {"E, Shift+E", "exposure up, down"},
+                              {"Space", "pause, go on"},
+                              {"R", "restart the picture"},
+                              {"Tab", "picture only"},
+                              {"L", "log"},
+                              {"Ctrl+Z, Ctrl+Shift+Z", "undo, redo"},
+                              {"Ctrl+O", "open a scene, a .vdb, or a picture made by Brume"},
+                              {"Ctrl+S, Ctrl+Shift+S", "save, save as"},
+                              {"Ctrl+E", "export the picture"},
+                              {"Ctrl+click on a slider", "type a value"},
+                              {"Esc", "cancel what is running"},
+                              {"?", "this help"}};
+
+}  // namespace
+
+MainWindow::MainWindow(Session& session, const Gl& gl, const MainWindowOptions& options)
+    : session_(session), options_(options), viewport_(gl), selected_(NodePath().child("render")) {}
+
+void MainWindow::draw() {
+  session_.update();
+  if (!dialog_.is_open()) handle_keys();
+  // Errors open the log by themselves: nobody looks for a message that is not shown.
+  for (; messages_seen_ < session_.messages().size(); ++messages_seen_)
+    if (session_.messages()[messages_seen_].level == LogLevel::Error) show_log_ = true;
+  draw_menu();
+  draw_panels();
+  draw_help();
+  draw_unsaved_question();
+  dialog_.draw();
+}
+
+// --- Actions
+
+void MainWindow::report(const Result<void>& done) {
+  if (!done) session_.say(LogLevel::Error, done.error().to_string());
+}
+
+void MainWindow::open(const std::string& path) {
+  unless_unsaved([this, path] { session_.open(path); });
+}
+
+void MainWindow::drop(const std::vector<std::string>& paths) {
+  if (!paths.empty()) open(paths.front());
+}
+
+void MainWindow::ask_open() {
+  dialog_.open({"Open", {".json", ".vdb", ".nvdb", ".exr", ".png"}, false,
+                session_.path().empty() ? "" : std::filesystem::path(session_.path()).parent_path().string(),
+                [this](const std::string& path) { open(path); }});
+}
+
+void MainWindow::ask_save_as() {
+  dialog_.open({"Save as", {".json"}, true, session_.path().empty() ? "untitled.json" : session_.path(), [this](std::string path) {
+                  if (std::filesystem::path(path).extension().empty()) path += ".json";
+                  report(session_.save_as(path));
+                }});
+}
+
+void MainWindow::ask_export() {
+  const std::string name = std::filesystem::path(session_.title()).replace_extension(".png").string();
+  dialog_.open({"Export picture", {".png", ".exr"}, true, name, [this](const std::string& path) {
+                  const auto done = session_.export_picture(path);
+                  report(done);
+                  if (done) session_.say(LogLevel::Info, "Exported " + path + ".");
+                }});
+}
+
+void MainWindow::ask_file_of(const NodePath& volume) {
+  const Node* node = volume.find(session_.description());
+  dialog_.open({"Choose grid file", {".vdb", ".nvdb"}, false, node ? node->text("file") : "", [this, volume](const std::string& path) {
+                  session_.change([&](Node& d) {
+                    if (Node* n = volume.find(d)) static_cast<void>(n->set("file", path).ok());
+                  });
+                  session_.close_step();
+                }});
+}
+
+void MainWindow::save() {
+  if (session_.path().empty())
+    ask_save_as();
+  else
+    report(session_.save());
+}
+
+void MainWindow::unless_unsaved(std::function<void()> next) {
+  if (!session_.modified()) return next();
+  after_question_ = std::move(next);
+  opening_question_ = true;
+}
+
+void MainWindow::request_quit() {
+  unless_unsaved([this] { may_quit_ = true; });
+}
+
+void MainWindow::handle_keys() {
+  using ui::Key;
+  if (ui::shortcut(Key::Z, {.ctrl = true}, true)) session_.undo();
+  if (ui::shortcut(Key::Z, {.ctrl = true, .shift = true}, true) || ui::shortcut(Key::Y, {.ctrl = true}, true)) session_.redo();
+  if (ui::shortcut(Key::O, {.ctrl = true})) ask_open();
+  if (ui::shortcut(Key::S, {.ctrl = true})) save();
+  if (ui::shortcut(Key::S, {.ctrl = true, .shift = true})) ask_save_as();
+  if (ui::shortcut(Key::E, {.ctrl = true})) ask_export();
+  if (ui::shortcut(Key::Q, {.ctrl = true})) request_quit();
+  if (ui::shortcut(Key::F)) session_.frame_all();
+  if (ui::shortcut(Key::R)) session_.restart();
+  if (ui::shortcut(Key::L)) show_log_ = !show_log_;
+  if (ui::shortcut(Key::Tab)) show_panels_ = !show_panels_;
+  if (ui::shortcut(Key::Space)) session_.set_paused(!session_.paused());
+  if (ui::typed('?')) show_help_ = !show_help_;
+  if (ui::shortcut(Key::Escape)) {
+    show_help_ = false;
+    session_.cancel_activity();
+  }
+  const auto expose = [&](double stops) {
+    session_.change([&](Node& d) {
+      Node& film = d.child("film");
+      static_cast<void>(film.set("exposure", film.number("exposure") + stops).ok());
+    });
+    session_.close_step();
+  };
+  if (ui::shortcut(Key::E, {}, true)) expose(0.5);
+  if (ui::shortcut(Key::E, {.shift = true}, true)) expose(-0.5);
+}
+
+// --- Drawing
+
+void MainWindow::draw_menu() {
+  if (!ui::begin_main_menu_bar()) return;
+  if (ui::menu("File")) {
+    if (ui::menu_item("Open...", "Ctrl+O")) ask_open();
+    if (ui::menu_item("Save", "Ctrl+S")) save();
+    if (ui::menu_item("Save as...", "Ctrl+Shift+S")) ask_save_as();
+    if (ui::menu_item("Export picture...", "Ctrl+E")) ask_export();
+    ImGui::Separator();
+    if (ui::menu_item("Quit", "Ctrl+Q")) request_quit();
+    ui::end_menu();
+  }
+  if (ui::menu("Edit")) {
+    if (ui::menu_item("Undo", "Ctrl+Z", false, session_.can_undo())) session_.undo();
+    if (ui::menu_item("Redo", "Ctrl+Shift+Z", false, session_.can_redo())) session_.redo();
+    ui::end_menu();
+  }
+  if (ui::menu("View")) {
+    if (ui::menu_item("Frame everything", "F")) session_.frame_all();
+    if (ui::menu_item("Picture only", "Tab", !show_panels_)) show_panels_ = !show_panels_;
+    if (ui::menu_item("Log", "L", show_log_)) show_log_ = !show_log_;
+    ImGui::Separator();
+    if (ui::menu_item("Pause", "Space", session_.paused())) session_.set_paused(!session_.paused());
+    if (ui::menu_item("Restart", "R")) session_.restart();
+    ui::end_menu();
+  }
+  if (ui::menu("Help")) {
+    if (ui::menu_item("Keys", "?", show_help_)) show_help_ = !show_help_;
+    ui::end_menu();
+  }
+  const std::string title = session_.title() + (session_.modified() ? " *" : "");
+  ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(title.c_str()).x - ImGui::GetFontSize());
+  ImGui::TextDisabled("%s", title.c_str());
+  ui::end_main_menu_bar();
+}
+
+void MainWindow::draw_panels() {
+  const ImGuiIO& io = ImGui::GetIO();
+  const float em = ImGui::GetFontSize(), top = ImGui::GetFrameHeight();
+  const float left = show_panels_ ? std::floor(15 * em) : 0, right = show_panels_ ? std::floor(24 * em) : 0;
+  const float status = show_panels_ ? std::floor(2 * em) : 0, log = show_log_ && show_panels_ ? std::floor(9 * em) : 0;
+  const float height = io.DisplaySize.y - top - status;
+  const auto panel = [&](const char* name, float x, float y, float w, float h, ImGuiWindowFlags flags = 0) {
+    ImGui::SetNextWindowPos({x, y});
+    ImGui::SetNextWindowSize({w, h});
+    return ui::begin_window(name, nullptr, kPanel | flags);
+  };
+
+  if (show_panels_) {
+    if (panel("Scene", 0, top, left, height)) draw_outliner(session_, selected_);
+    ui::end_window();
+    if (panel("Inspector", io.DisplaySize.x - right, top, right, height))
+      if (const auto browse = draw_inspector(session_, selected_)) ask_file_of(*browse);
+    ui::end_window();
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em * 0.7f, std::floor((status - em) / 2)});
+    if (panel("Status", 0, top + height, io.DisplaySize.x, status, ImGuiWindowFlags_NoScrollbar)) draw_status_bar(session_, options_.measured);
+    ui::end_window();
+    ImGui::PopStyleVar();
+  }
+  if (log > 0) {
+    if (panel("Log", left, top + height - log, io.DisplaySize.x - left - right, log)) draw_log();
+    ui::end_window();
+  }
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  if (panel("View", left, top, io.DisplaySize.x - left - right, height - log, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
+    viewport_.draw(session_);
+  ui::end_window();
+  ImGui::PopStyleVar();
+}
+
+void MainWindow::draw_log() {
+  for (const Session::Message& m : session_.messages()) {
+    const ImVec4 color = m.level == LogLevel::Error     ? ImVec4(1.0f, 0.5f, 0.42f, 1)
+                         : m.level == LogLevel::Warning ? ImVec4(0.95f, 0.8f, 0.45f, 1)
+                                                        : ImGui::GetStyleColorVec4(ImGuiCol_Text);
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextWrapped("%s", m.text.c_str());
+    ImGui::PopStyleColor();
+  }
+  if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY()) ImGui::SetScrollHereY(1);
+}
+
+void MainWindow::draw_help() {
+  if (!show_help_) return;
+  const ImVec2 middle(ImGui::GetIO().DisplaySize.x / 2, ImGui::GetIO().DisplaySize.y / 2);
+  ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
+  if (ui::begin_window("Keys", &show_help_, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse)) {
+    const float column = 13 * ImGui::GetFontSize();
+    for (const Shortcut& s : kHelp) {
+      ImGui::TextUnformatted(s.keys);
+      ImGui::SameLine(column);
+      ImGui::TextDisabled("%s", s.what);
+    }
+  }
+  ui::end_window();
+}
+
+void MainWindow::draw_unsaved_question() {
+  if (opening_question_) ui::open_popup("Unsaved changes");
+  opening_question_ = false;
+  if (!ui::begin_modal("Unsaved changes")) return;
+  ImGui::Text("%s has changes that are not saved.", session_.title().c_str());
+  ImGui::Spacing();
+  bool go_on = false;
+  if (ui::button("Save")) {
+    if (session_.path().empty()) {
+      ImGui::CloseCurrentPopup();
+      ask_save_as();
+    } else {
+      const auto done = session_.save();
+      report(done);
+      go_on = done.ok();
+      ImGui::CloseCurrentPopup();
+    }
+  }
+  ImGui::SameLine();
+  if (ui::button("Discard")) {
+    go_on = true;
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::SameLine();
+  if (ui::button("Cancel")) ImGui::CloseCurrentPopup();
+  ui::end_modal();
+  if (go_on && after_question_) after_question_();
+}
+
+}  // namespace brume

@@ -1,0 +1,68 @@
+#include "app/session/load_scene.h"
+
+#include <filesystem>
+
+#include "app/session/display.h"
+#include "renderer/engine/first_look.h"
+#include "renderer/film/image_io.h"
+#include "renderer/integrators/registry.h"
+#include "renderer/scene_io/scene_file.h"
+
+namespace brume {
+namespace {
+
+std::string absolute(const std::string& path) {
+  std::error_code unknown;
+  const auto full = std::filesystem::absolute(std::filesystem::path(path), unknown);
+  return unknown ? path : full.lexically_normal().string();
+}
+
+std::string extension(const std::string& path) {
+  std::string e = std::filesystem::path(path).extension().string();
+  for (char& c : e) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return e;
+}
+
+Result<LoadedScene> from_picture(const std::string& path, const Result<ImageMetadata>& metadata) {
+  if (!metadata) return metadata.error();
+  if (metadata->scene_json.empty())
+    return bad_input("found a picture without a scene, expected one that Brume wrote", {path, 0, 0, ""});
+  const std::string folder = std::filesystem::path(absolute(path)).parent_path().string();
+  auto description = read_scene_text(metadata->scene_json, path, folder, scene_family());
+  if (!description) return description.error();
+  return LoadedScene{std::move(*description), "", {"scene restored from the picture " + path}};
+}
+
+template <class File>
+Result<ImageMetadata> metadata_of(const Result<File>& file) {
+  if (!file) return file.error();
+  return file->metadata;
+}
+
+}  // namespace
+
+Result<LoadedScene> load_scene(const std::string& path, GridCache& grids, const LoadOptions& options) {
+  const std::string kind = extension(path);
+  if (kind == ".vdb" || kind == ".nvdb") {
+    auto look = first_look(absolute(path), grids, options);
+    if (!look) return look.error();
+    return LoadedScene{std::move(look->description), "", std::move(look->notes)};
+  }
+  if (kind == ".exr") return from_picture(path, metadata_of(read_exr(path)));
+  if (kind == ".png") return from_picture(path, metadata_of(read_png(path)));
+  auto description = read_scene_file(path, scene_family());
+  if (!description) return description.error();
+  return LoadedScene{std::move(*description), absolute(path), {}};
+}
+
+Result<void> write_picture(const std::string& path, const Image& image, const Node& description) {
+  const std::string folder = std::filesystem::path(absolute(path)).parent_path().string();
+  ImageMetadata metadata;
+  metadata.scene_json = write_scene_text(description, folder);
+  const std::string kind = extension(path);
+  if (kind == ".exr") return write_exr(path, image, metadata);
+  if (kind == ".png") return write_png(path, to_display(image, display_settings(description.child("film"))), metadata);
+  return bad_input("found the extension \"" + kind + "\", expected .exr or .png", {path, 0, 0, ""});
+}
+
+}  // namespace brume

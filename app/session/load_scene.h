@@ -1,0 +1,26 @@
+// Scenes from any file that holds or implies one, and pictures to files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/film/image.h"
+#include "renderer/media/grid_cache.h"
+#include "renderer/params/node.h"
+
+namespace brume {
+
+struct LoadedScene {
+  Node description;
+  std::string scene_path;          ///< where Save writes: the scene file, empty for what was made up or taken from a picture
+  std::vector<std::string> notes;  ///< one sentence each: what was chosen
+};
+
+/// FILE.json; a grid file (.vdb, .nvdb), through first_look(); or a picture that Brume wrote (.exr, .png), which holds
+/// its scene.
+Result<LoadedScene> load_scene(const std::string& path, GridCache& grids, const LoadOptions& options);
+
+/// Linear values (.exr) or display values by the film's exposure and curve (.png), with the scene inside.
+Result<void> write_picture(const std::string& path, const Image& image, const Node& description);
+
+}  // namespace brume

@@ -1,0 +1,279 @@
+#include "app/session/session.h"
+
+#include <filesystem>
+
+#include "app/session/load_scene.h"
+#include "renderer/engine/first_look.h"
+#include "renderer/film/display_transform.h"
+#include "renderer/film/image_io.h"
+#include "renderer/integrators/registry.h"
+#include "renderer/params/node_difference.h"
+#include "renderer/scene/framing.h"
+#include "renderer/scene_io/scene_file.h"
+
+namespace brume {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kMaxHistory = 500;   // steps; a description is a few kilobytes
+constexpr std::size_t kMaxMessages = 500;
+
+std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+Node empty_scene() { return Node(*scene_family().tables.front()); }
+
+}  // namespace
+
+/// What the worker is asked for: to open a file, or to commit a description.
+struct Session::Wish {
+  std::string open;                 // path; empty: commit `description`
+  std::optional<Node> description;
+  std::uint64_t generation = 0;
+};
+
+struct Session::Outcome {
+  Wish wish;
+  std::optional<LoadedScene> loaded;   // of a wish to open
+  std::shared_ptr<const Scene> scene;  // null: see error
+  std::optional<Error> error;
+  std::map<std::string, std::vector<GridInfo>> grid_infos;
+};
+
+Session::Session(const SessionOptions& options)
+    : options_(options), description_(empty_scene()), saved_(description_), engine_(options.threads, options.on_news) {
+  worker_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
+}
+
+Session::~Session() { cancel_work_.request_stop(); }
+
+// --- The document
+
+std::string Session::title() const { return path_.empty() ? "untitled" : file_name(path_); }
+
+bool Session::modified() const { return description_ != saved_; }
+
+void Session::change(const std::function<void(Node&)>& edit) {
+  Node edited = description_;
+  edit(edited);
+  const auto dearest = node_difference(description_, edited);
+  if (!dearest) return;
+  if (!step_open_) {
+    undo_.push_back(description_);
+    if (undo_.size() > kMaxHistory) undo_.erase(undo_.begin());
+    step_open_ = true;
+  }
+  redo_.clear();
+  description_ = std::move(edited);
+  description_changed(dearest);
+}
+
+void Session::undo() {
+  if (undo_.empty()) return;
+  const auto dearest = node_difference(description_, undo_.back());
+  redo_.push_back(std::move(description_));
+  description_ = std::move(undo_.back());
+  undo_.pop_back();
+  step_open_ = false;
+  description_changed(dearest);
+}
+
+void Session::redo() {
+  if (redo_.empty()) return;
+  const auto dearest = node_difference(description_, redo_.back());
+  undo_.push_back(std::move(description_));
+  description_ = std::move(redo_.back());
+  redo_.pop_back();
+  step_open_ = false;
+  description_changed(dearest);
+}
+
+void Session::description_changed(std::optional<Affects> dearest) {
+  if (!dearest || *dearest == Affects::Display) return;
+  request({{}, description_, ++generation_});
+}
+
+void Session::open(const std::string& path) { request({path, {}, ++generation_}); }
+
+void Session::start(Node description, const std::string& path) {
+  description_ = std::move(description);
+  saved_ = description_;
+  path_ = path;
+  undo_.clear();
+  redo_.clear();
+  step_open_ = false;
+  request({{}, description_, ++generation_});
+}
+
+Result<void> Session::save() { return save_as(path_); }
+
+Result<void> Session::save_as(const std::string& path) {
+  if (auto done = write_scene_file(path, description_); !done) return done;
+  path_ = path;
+  saved_ = description_;
+  say(LogLevel::Info, "Saved " + path + ".");
+  return {};
+}
+
+Result<void> Session::export_picture(const std::string& path) const {
+  const auto shown = picture();
+  if (!shown) return bad_input("there is no picture yet", {path, 0, 0, ""});
+  return write_picture(path, shown->image, description_);
+}
+
+void Session::frame_all() {
+  if (!scene_ || scene_->bounds.empty()) return;
+  const Bounds3 world{scene_->bounds.low + scene_->origin, scene_->bounds.high + scene_->origin};
+  const Numbers& r = description_.child("film").numbers("resolution");
+  change([&](Node& d) { frame_bounds(d.child("camera"), world, r[0] / r[1]); });
+  close_step();
+}
+
+// --- The picture
+
+void Session::set_picture_size(int width, int height) {
+  if (width == width_ && height == height_) return;
+  width_ = width, height_ = height;
+  submit();
+}
+
+void Session::restart() { submit(); }
+
+void Session::submit() {
+  if (scene_ && width_ > 0 && height_ > 0) engine_.submit({{scene_, width_, height_, options_.max_samples}});
+}
+
+// --- What goes on
+
+void Session::say(LogLevel level, std::string text) {
+  messages_.push_back({level, std::move(text)});
+  if (messages_.size() > kMaxMessages) messages_.pop_front();
+}
+
+const std::vector<GridInfo>& Session::grids_of(const std::string& path) const {
+  static const std::vector<GridInfo> none;
+  const auto found = grid_infos_.find(path);
+  return found == grid_infos_.end() ? none : found->second;
+}
+
+std::optional<Session::Activity> Session::activity() const {
+  const std::lock_guard lock(mutex_);
+  if (working_on_.empty()) return std::nullopt;
+  return Activity{working_on_, progress_, std::chrono::duration<double>(Clock::now() - work_began_).count()};
+}
+
+void Session::cancel_activity() {
+  const std::lock_guard lock(mutex_);
+  cancel_work_.request_stop();
+}
+
+bool Session::idle() const {
+  const std::lock_guard lock(mutex_);
+  return !wish_ && !outcome_ && working_on_.empty();
+}
+
+void Session::request(Wish wish) {
+  const std::lock_guard lock(mutex_);
+  // A newer edit supersedes a commit under way, but an edit made while a file is being opened waits for nothing: the
+  // file will replace the document.
+  const bool opening = wish_ && !wish_->open.empty();
+  if (opening && wish.open.empty()) return;
+  wish_ = std::make_unique<Wish>(std::move(wish));
+  wished_.notify_all();
+}
+
+void Session::serve(const std::stop_token& stop) {
+  while (true) {
+    Wish wish;
+    std::stop_token cancel;
+    {
+      std::unique_lock lock(mutex_);
+      if (!wished_.wait(lock, stop, [&] { return wish_ && !outcome_; })) return;
+      wish = std::move(*wish_);
+      wish_.reset();
+      working_on_ = wish.open.empty() ? "Preparing the scene" : "Reading " + file_name(wish.open);
+      work_began_ = Clock::now();
+      progress_ = 0;
+      cancel_work_ = {};
+      cancel = cancel_work_.get_token();
+    }
+    Outcome outcome = fulfil(wish, cancel);
+    {
+      const std::lock_guard lock(mutex_);
+      working_on_.clear();
+      outcome_ = std::make_unique<Outcome>(std::move(outcome));
+    }
+    if (options_.on_news) options_.on_news();
+  }
+}
+
+Session::Outcome Session::fulfil(const Wish& wish, const std::stop_token& cancel) {
+  Outcome out;
+  out.wish = wish;
+  const auto progress = [this](float p) { progress_ = p; };
+  if (!wish.open.empty()) {
+    auto loaded = load_scene(wish.open, grids_, {.progress = progress, .cancel = cancel});
+    if (!loaded) {
+      out.error = loaded.error();
+      return out;
+    }
+    out.loaded = std::move(*loaded);
+  }
+  const Node& description = out.loaded ? out.loaded->description : *wish.description;
+  auto scene = commit(description, grids_, {.generation = wish.generation, .progress = progress, .cancel = cancel});
+  for (const Node& volume : description.list("volumes")) {
+    if (!volume.table().find("file") || volume.text("file").empty()) continue;
+    if (auto infos = list_grids(volume.text("file"), false)) out.grid_infos[volume.text("file")] = std::move(*infos);
+  }
+  if (scene)
+    out.scene = *scene;
+  else
+    out.error = scene.error();
+  return out;
+}
+
+void Session::take(Outcome outcome) {
+  for (auto& [path, infos] : outcome.grid_infos) grid_infos_[path] = std::move(infos);
+  if (outcome.loaded) {
+    description_ = outcome.loaded->description;
+    path_ = outcome.loaded->scene_path;
+    // What was made up for a bare grid file is not on disk yet, but nobody would miss it.
+    saved_ = description_;
+    undo_.clear();
+    redo_.clear();
+    step_open_ = false;
+    say(LogLevel::Info, "Opened " + outcome.wish.open + ".");
+    for (std::string& note : outcome.loaded->notes) say(LogLevel::Info, std::move(note));
+  }
+  if (outcome.error) {
+    if (outcome.error->code == ErrorCode::Cancelled) return;
+    // A file that could not be opened leaves the document as it is; a description that cannot be rendered is a problem.
+    if (outcome.wish.open.empty() || outcome.loaded) problem_ = outcome.error->to_string();
+    say(LogLevel::Error, outcome.error->to_string());
+    return;
+  }
+  problem_.clear();
+  if (!scene_ || scene_->warnings != outcome.scene->warnings)
+    for (const std::string& warning : outcome.scene->warnings) say(LogLevel::Warning, warning);
+  scene_ = std::move(outcome.scene);
+  grids_.drop_unused();
+  submit();
+}
+
+void Session::update() {
+  std::unique_ptr<Outcome> outcome;
+  {
+    const std::lock_guard lock(mutex_);
+    outcome = std::move(outcome_);
+    if (outcome && wish_) wished_.notify_all();
+  }
+  if (outcome) take(std::move(*outcome));
+
+  const auto shown = picture();
+  if (shown && shown != examined_ && scene_ && shown->generation == scene_->generation) {
+    examined_ = shown;
+    black_picture_ = explain_black(*scene_, *shown).value_or("");
+  }
+}
+
+}  // namespace brume

@@ -1,0 +1,144 @@
+// The document: a scene description with its history, and the picture that follows it.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "renderer/engine/engine.h"
+#include "renderer/media/vdb_file.h"
+#include "renderer/params/node.h"
+
+namespace brume {
+
+struct SessionOptions {
+  int threads = 0;            ///< 0: as many as the machine has
+  int max_samples = 1 << 24;  ///< per pixel; the picture is finished then
+  std::function<void()> on_news = {};  ///< called from other threads when update() would bring something new
+};
+
+/// Belongs to the UI thread, which it never keeps waiting: files are read and scenes committed on a thread of its own,
+/// and pictures come from the engine's. update() brings in what they have finished.
+///
+/// The description is plain values; every change makes a new one and is a step of the history. What renders is an
+/// immutable scene committed from it; a description that cannot be committed leaves the last good scene in place and
+/// says why in problem().
+class Session {
+ public:
+  explicit Session(const SessionOptions& options = {});
+  ~Session();
+
+  /// Once per frame.
+  void update();
+
+  // --- The document
+
+  const Node& description() const { return description_; }
+  /// The scene file, empty for a document that has none yet.
+  const std::string& path() const { return path_; }
+  /// "smoke.json", "untitled"
+  std::string title() const;
+  bool modified() const;
+
+  /// Changes the description. Changes until close_step() are one step of the history.
+  void change(const std::function<void(Node&)>& edit);
+  /// The same, when nothing is to be undone: framing the first view.
+  void close_step() { step_open_ = false; }
+  bool can_undo() const { return !undo_.empty(); }
+  bool can_redo() const { return !redo_.empty(); }
+  void undo();
+  void redo();
+
+  /// Reads a scene (.json, or a picture that Brume wrote) or a grid file (.vdb, .nvdb) in the background.
+  void open(const std::string& path);
+  /// Starts from a description that is not on disk.
+  void start(Node description, const std::string& path = {});
+  Result<void> save();                          ///< to path(), which must not be empty
+  Result<void> save_as(const std::string& path);
+  /// Writes the picture as shown (.png) or its linear values (.exr), with the scene inside.
+  Result<void> export_picture(const std::string& path) const;
+
+  /// Moves the camera so that all volumes fill the view.
+  void frame_all();
+
+  // --- The picture
+
+  /// Size at which the picture is rendered; the engine restarts when it changes.
+  void set_picture_size(int width, int height);
+  std::shared_ptr<const Picture> picture() const { return engine_.picture(); }
+  /// The scene of the newest successful commit; null before the first.
+  std::shared_ptr<const Scene> scene() const { return scene_; }
+  /// Generation of the newest edit; a picture with a lower one is being replaced.
+  std::uint64_t generation() const { return generation_; }
+  bool paused() const { return engine_.paused(); }
+  void set_paused(bool paused) { engine_.pause(paused); }
+  void restart();
+  /// Why there is nothing to see, in one sentence; empty when there is.
+  const std::string& black_picture() const { return black_picture_; }
+
+  // --- What goes on
+
+  struct Activity {
+    std::string what;  ///< "Reading smoke.vdb"
+    float progress;    ///< 0..1
+    double seconds;    ///< since it began
+  };
+  std::optional<Activity> activity() const;
+  void cancel_activity();
+  /// Nothing is being read, committed or waited for.
+  bool idle() const;
+
+  /// Why the description cannot be rendered; empty when it can.
+  const std::string& problem() const { return problem_; }
+
+  struct Message {
+    LogLevel level;
+    std::string text;
+  };
+  const std::deque<Message>& messages() const { return messages_; }
+  void say(LogLevel level, std::string text);
+
+  /// Grids of a file that a volume names; empty until it has been read.
+  const std::vector<GridInfo>& grids_of(const std::string& path) const;
+
+ private:
+  struct Wish;
+  struct Outcome;
+
+  void description_changed(std::optional<Affects> dearest);
+  void request(Wish wish);
+  void serve(const std::stop_token& stop);
+  Outcome fulfil(const Wish& wish, const std::stop_token& cancel);
+  void take(Outcome outcome);
+  void submit();
+
+  SessionOptions options_;
+  Node description_;
+  Node saved_;
+  std::string path_;
+  std::vector<Node> undo_, redo_;
+  bool step_open_ = false;
+  std::uint64_t generation_ = 0;
+  int width_ = 0, height_ = 0;
+  std::shared_ptr<const Scene> scene_;
+  std::string problem_, black_picture_;
+  std::shared_ptr<const Picture> examined_;  // by explain_black
+  std::deque<Message> messages_;
+  std::map<std::string, std::vector<GridInfo>> grid_infos_;
+
+  GridCache grids_;
+  Engine engine_;
+
+  mutable std::mutex mutex_;  // guards what follows
+  std::condition_variable_any wished_;
+  std::unique_ptr<Wish> wish_;  // the newest, not yet taken up
+  std::unique_ptr<Outcome> outcome_;
+  std::string working_on_;      // empty: nothing
+  std::chrono::steady_clock::time_point work_began_;
+  std::stop_source cancel_work_;
+  std::atomic<float> progress_ = 0;
+  std::jthread worker_;         // last: it ends before what it uses
+};
+
+}  // namespace brume
