@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <iostream>
+#include <sstream>
 
 #include "app/cli/console.h"
 #include "app/cli/docs.h"
@@ -69,7 +69,8 @@ std::string help_of(const Param& p) {
   return p.doc + " (" + join(details, "; ") + ")";
 }
 
-void add_value(CLI::App& app, const std::string& placeholder, const Param& p, const std::function<void(const Value&)>& take) {
+void add_value(CLI::App& app, const std::string& placeholder, const Param& p,
+               const std::function<void(const Value&)>& take) {
   const std::string flag = "--" + p.key;
   app.add_option_function<std::string>(
          flag,
@@ -85,7 +86,8 @@ void add_value(CLI::App& app, const std::string& placeholder, const Param& p, co
 int to_int(const Value& value) { return static_cast<int>(std::get<std::int64_t>(value)); }
 
 void add_threads(CLI::App& app, int& threads) {
-  const Param p = param::integer("threads", "Threads", 1).between(1, 1024).auto_by_default("one per core").says("Render threads");
+  const Param p =
+      param::integer("threads", "Threads", 1).between(1, 1024).auto_by_default("one per core").says("Render threads");
   add_value(app, "N", p, [&threads](const Value& v) { threads = to_int(v); });
 }
 
@@ -99,7 +101,11 @@ void add_file(CLI::App& app, std::string& file) {
 void add_shorthand(CLI::App& app, SceneOptions& scene, const std::string& flag, const std::string& placeholder,
                    const std::string& key, const std::string& doc) {
   app.add_option_function<std::string>(
-         flag, [&scene, flag, key](const std::string& text) { scene.settings.push_back({flag, key, text}); }, doc)
+         flag,
+         [&scene, flag, key](const std::string& text) {
+           scene.settings.push_back({flag, key, text});
+         },
+         doc)
       ->option_text(placeholder);
 }
 
@@ -114,7 +120,8 @@ void add_settings(CLI::App& app, SceneOptions& scene) {
              scene.settings.push_back(std::move(*setting));
            }
          },
-         "Changes a value of the scene, for example render.bounces=2\nor lights.key.intensity=40,40,40; may be repeated")
+         "Changes a value of the scene, for example render.bounces=2\nor lights.key.intensity=40,40,40; may be "
+         "repeated")
       ->option_text("KEY=VALUE")
       ->allow_extra_args(false);
 }
@@ -133,20 +140,26 @@ Command make_render(CLI::App& root) {
                               "  brume render smoke.vdb -o smoke.png --time 10 --size 1280x720\n"
                               "  brume render smoke.png -o more.png --set render.bounces=4 --stats more.json");
   add_file(*app, o->scene.file);
-  app->add_option("-o,--output", o->output, "Picture to write: .exr (linear values) or .png (display values);\nthe scene is kept inside")
+  app->add_option("-o,--output", o->output,
+                  "Picture to write: .exr (linear values) or .png (display values);\nthe scene is kept inside")
       ->required()
       ->option_text("OUT");
   add_value(*app, "N", param::integer("spp", "Samples", kDefaultSamples).between(1, 1 << 24).says("Samples per pixel"),
             [o](const Value& v) { o->samples = to_int(v); });
   add_value(*app, "SECONDS",
-            param::number("time", "Time", 1).between(1e-3, 1e7).auto_by_default("--spp decides").in("seconds of rendering")
+            param::number("time", "Time", 1)
+                .between(1e-3, 1e7)
+                .auto_by_default("--spp decides")
+                .in("seconds of rendering")
                 .says("Renders for about this long"),
             [o](const Value& v) { o->seconds = std::get<double>(v); });
   add_settings(*app, o->scene);
-  add_shorthand(*app, o->scene, "--size", "WxH", "film.resolution", "Size of the picture in pixels (default: the scene's)");
+  add_shorthand(*app, o->scene, "--size", "WxH", "film.resolution",
+                "Size of the picture in pixels (default: the scene's)");
   add_seed(*app, o->scene);
   add_threads(*app, o->threads);
-  app->add_option("--stats", o->statistics_file, "Writes what it took as JSON: times in seconds, counts, memory in bytes")
+  app->add_option("--stats", o->statistics_file,
+                  "Writes what it took as JSON: times in seconds, counts, memory in bytes")
       ->option_text("FILE.json");
   return {app, [o]() -> Result<ExitCode> {
             if (o->samples && o->seconds)
@@ -173,13 +186,20 @@ Command make_probe(CLI::App& root) {
          "Origin and direction, world units; the direction is normalised")
       ->required()
       ->option_text("OX,OY,OZ,DX,DY,DZ");
-  add_value(*app, "T", param::number("tmin", "Begin", 0).between(0, 1e15).in("world units").says("Where the ray begins"),
+  add_value(*app, "T",
+            param::number("tmin", "Begin", 0).between(0, 1e15).in("world units").says("Where the ray begins"),
             [o](const Value& v) { o->t_min = std::get<double>(v); });
   add_value(*app, "T",
-            param::number("tmax", "End", 1).between(0, 1e15).auto_by_default("no end").in("world units").says("Where the ray ends"),
+            param::number("tmax", "End", 1)
+                .between(0, 1e15)
+                .auto_by_default("no end")
+                .in("world units")
+                .says("Where the ray ends"),
             [o](const Value& v) { o->t_max = std::get<double>(v); });
   add_value(*app, "N",
-            param::integer("samples", "Samples", static_cast<std::int64_t>(o->samples)).between(1, 0x1p32).says("Samples; an odd number is rounded up"),
+            param::integer("samples", "Samples", static_cast<std::int64_t>(o->samples))
+                .between(1, 0x1p32)
+                .says("Samples; an odd number is rounded up"),
             [o](const Value& v) { o->samples = static_cast<std::uint64_t>(std::get<std::int64_t>(v)); });
   add_settings(*app, o->scene);
   add_seed(*app, o->scene);
@@ -199,12 +219,18 @@ Command make_snapshot(CLI::App& root) {
   add_file(*app, o->scene.file);
   app->add_option("-o,--output", o->snapshot.output, "Picture to write (.png)")->required()->option_text("UI.png");
   add_value(*app, "WxH",
-            param::resolution("size", "Size", o->snapshot.width, o->snapshot.height).between(64, 8192).in("pixels").says("Size of the interface"),
+            param::resolution("size", "Size", o->snapshot.width, o->snapshot.height)
+                .between(64, 8192)
+                .in("pixels")
+                .says("Size of the interface"),
             [o](const Value& v) {
               o->snapshot.width = static_cast<int>(std::get<Numbers>(v)[0]);
               o->snapshot.height = static_cast<int>(std::get<Numbers>(v)[1]);
             });
-  add_value(*app, "N", param::integer("spp", "Samples", o->snapshot.samples).between(1, 1 << 24).says("Samples per pixel of the rendered view"),
+  add_value(*app, "N",
+            param::integer("spp", "Samples", o->snapshot.samples)
+                .between(1, 1 << 24)
+                .says("Samples per pixel of the rendered view"),
             [o](const Value& v) { o->snapshot.samples = to_int(v); });
   add_settings(*app, o->scene);
   return {app, [o] { return run_snapshot_command(o->scene, o->snapshot); }};
@@ -212,8 +238,9 @@ Command make_snapshot(CLI::App& root) {
 
 Command make_info(CLI::App& root) {
   auto o = std::make_shared<InfoOptions>();
-  CLI::App* app = add_command(root, "info", "Tells what a scene or a grid file holds", "FILE [--json]",
-                              "Lengths are in world units.\n\nExamples:\n  brume info smoke.vdb\n  brume info scenes/smoke.json --json");
+  CLI::App* app = add_command(
+      root, "info", "Tells what a scene or a grid file holds", "FILE [--json]",
+      "Lengths are in world units.\n\nExamples:\n  brume info smoke.vdb\n  brume info scenes/smoke.json --json");
   add_file(*app, o->file);
   app->add_flag("--json", o->json, "As JSON");
   return {app, [o] { return run_info(*o); }};
@@ -221,8 +248,11 @@ Command make_info(CLI::App& root) {
 
 std::vector<Command> make_commands(CLI::App& root) {
   std::vector<Command> commands{make_render(root), make_probe(root), make_snapshot(root), make_info(root)};
-  commands.push_back({add_command(root, "schema", "Prints the JSON Schema of scene files, for editors", "> brume.schema.json"), run_schema});
-  commands.push_back({add_command(root, "docs", "Prints every parameter of a scene, as Markdown", "> parameters.md"), run_docs});
+  commands.push_back(
+      {add_command(root, "schema", "Prints the JSON Schema of scene files, for editors", "> brume.schema.json"),
+       run_schema});
+  commands.push_back(
+      {add_command(root, "docs", "Prints every parameter of a scene, as Markdown", "> parameters.md"), run_docs});
   return commands;
 }
 
@@ -248,7 +278,8 @@ Error unexpected(const CLI::App& app, const std::vector<std::string>& arguments,
 Error usage_error(const CLI::App& root, const CLI::ParseError& e, const CLI::App* chosen) {
   const CLI::App& app = chosen ? *chosen : root;
   if (const auto extras = app.remaining(true); !extras.empty()) return unexpected(app, extras, chosen);
-  std::string message = e.what();  // "--output is required"
+  std::string message = e.what();  // "--output is required", "--spp: At Most 1 required but received 2"
+  if (e.get_name() == "ArgumentMismatch") message = message.substr(0, message.find(':')) + ": expected one value";
   while (message.ends_with('\n') || message.ends_with('.')) message.pop_back();
   return bad_input(message + see_help(chosen));
 }
@@ -266,8 +297,9 @@ Result<void> check_file(const std::string& file, const std::vector<Command>& com
 
 Result<ExitCode> parse_and_run(int argc, char** argv) {
   CLI::App root("Brume lights smoke, fire, cloud and fog by decoupled ray-marching.");
-  root.formatter(std::make_shared<HelpFormatter>("brume [FILE]                     opens the window\n"
-                                                 "       brume COMMAND FILE [OPTIONS]"));
+  root.formatter(
+      std::make_shared<HelpFormatter>("brume [FILE]                     opens the window\n"
+                                      "       brume COMMAND FILE [OPTIONS]"));
   root.set_help_flag("-h,--help", "This text; brume COMMAND --help tells more");
   root.set_version_flag("--version", "brume " BRUME_VERSION, "The program's version");
   std::string file;
@@ -291,7 +323,9 @@ Result<ExitCode> parse_and_run(int argc, char** argv) {
   try {
     root.parse(argc, argv);
   } catch (const CLI::Success& e) {  // --help, --version
-    root.exit(e, std::cout, std::cerr);
+    std::ostringstream text;
+    root.exit(e, text, text);
+    if (auto done = print_result(text.str()); !done) return done.error();
     return ExitCode::Ok;
   } catch (const CLI::ParseError& e) {
     const Command* command = chosen();
@@ -303,7 +337,8 @@ Result<ExitCode> parse_and_run(int argc, char** argv) {
   }
 
   if (const Command* command = chosen()) {
-    if (!file.empty()) return bad_input("found \"" + file + "\" before " + command->app->get_name() + ", expected one of the two");
+    if (!file.empty())
+      return bad_input("found \"" + file + "\" before " + command->app->get_name() + ", expected one of the two");
     return command->run();
   }
   if (file.empty()) return static_cast<ExitCode>(run_window(std::nullopt));

@@ -15,9 +15,12 @@ enum class ExitCode {
 
 inline ExitCode exit_code_of(const Error& error) {
   switch (error.code) {
-    case ErrorCode::BadInput: return ExitCode::BadInput;
-    case ErrorCode::Cancelled: return ExitCode::Interrupted;
-    case ErrorCode::Internal: break;
+    case ErrorCode::BadInput:
+      return ExitCode::BadInput;
+    case ErrorCode::Cancelled:
+      return ExitCode::Interrupted;
+    case ErrorCode::Internal:
+      break;
   }
   return ExitCode::Internal;
 }

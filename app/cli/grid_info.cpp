@@ -43,9 +43,9 @@ std::string bounds_text(const GridInfo& grid) {
 std::string remarks(const GridInfo& grid, const std::vector<GridInfo>& all) {
   if (!grid.usable) return "not usable: " + grid.why_not;
   std::vector<std::string> parts;
-  if (guess_density_grid(all) == grid.name) parts.push_back("taken as density");
-  if (guess_emission_grid(all) == grid.name) parts.push_back("taken as emission");
-  if (parts.empty()) parts.push_back("usable");
+  if (guess_density_grid(all) == grid.name) parts.emplace_back("taken as density");
+  if (guess_emission_grid(all) == grid.name) parts.emplace_back("taken as emission");
+  if (parts.empty()) parts.emplace_back("usable");
   if (grid.non_finite > 0) parts.push_back(std::to_string(grid.non_finite) + " NaN or infinite voxels become 0");
   if (grid.negative > 0) parts.push_back(std::to_string(grid.negative) + " negative voxels become 0");
   return join(parts, "; ");
@@ -82,8 +82,8 @@ Json to_json(const GridInfo& grid) {
   json["index_bounds"] =
       voxels ? Json{{"min", vector_json(grid.index_min)}, {"max", vector_json(grid.index_max)}} : Json();
   json["dimensions"] = voxels ? vector_json(dimensions(grid)) : Json();
-  json["bounds"] = voxels ? Json{{"min", vector_json(grid.world_bounds.low)}, {"max", vector_json(grid.world_bounds.high)}}
-                          : Json();
+  json["bounds"] =
+      voxels ? Json{{"min", vector_json(grid.world_bounds.low)}, {"max", vector_json(grid.world_bounds.high)}} : Json();
   json["min"] = range ? Json(grid.min) : Json();
   json["max"] = range ? Json(grid.max) : Json();
   json["memory_bytes"] = grid.memory_bytes;
@@ -101,8 +101,8 @@ std::string grids_as_text(const std::string& file, const std::vector<GridInfo>& 
   const auto bytes = std::filesystem::file_size(file, unknown);
   std::string text = file + ": " + std::to_string(grids.size()) + (grids.size() == 1 ? " grid" : " grids");
   if (!unknown) text += ", " + format_bytes(static_cast<double>(bytes));
-  std::vector<std::vector<std::string>> rows{{"grid", "type", "class", "voxel size", "active", "dimensions", "bounds",
-                                              "range", "memory", "codec", "remarks"}};
+  std::vector<std::vector<std::string>> rows{
+      {"grid", "type", "class", "voxel size", "active", "dimensions", "bounds", "range", "memory", "codec", "remarks"}};
   for (const GridInfo& grid : grids) rows.push_back(row_of(grid, grids));
   return text + "\n\n" + format_table(rows, "lllrrrllrll", 2);
 }

@@ -3,8 +3,8 @@
 
 namespace brume {
 
-/// While it lives, the first Ctrl+C (SIGINT) or SIGTERM is only noted, so that work done so far can be saved; the second
-/// one ends the program at once. One at a time, on the main thread.
+/// While it lives, the first Ctrl+C (SIGINT) or SIGTERM is only noted, so that work done so far can be saved; the
+/// second one ends the program at once. One at a time, on the main thread.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -11,8 +11,9 @@ namespace brume {
 
 Result<void> check_writable(const std::string& path) {
   // Goes as far as creating the temporary file, then gives up, so the conditions are the very same.
-  const auto rehearsal = write_file_atomically(
-      path, [](const std::string&) -> Result<void> { return Error{ErrorCode::Cancelled, "a rehearsal"}; });
+  const auto rehearsal = write_file_atomically(path, [](const std::string&) -> Result<void> {
+    return Error{ErrorCode::Cancelled, "a rehearsal"};
+  });
   if (!rehearsal && rehearsal.error().code != ErrorCode::Cancelled) return rehearsal;
   return {};
 }
@@ -21,9 +22,10 @@ Result<void> check_output(const std::string& path, const std::vector<std::string
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
-    return bad_input((extension.empty() ? "found a name without extension" : "found the extension \"" + extension + "\"") +
-                         ", expected " + join(extensions, " or "),
-                     {path, 0, 0, ""});
+    return bad_input(
+        (extension.empty() ? "found a name without extension" : "found the extension \"" + extension + "\"") +
+            ", expected " + join(extensions, " or "),
+        {path, 0, 0, path.empty() ? "--output" : ""});
   return check_writable(path);
 }
 

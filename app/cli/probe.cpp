@@ -17,7 +17,8 @@ Error ray_error(const std::string& message) { return bad_input(message, {"", 0, 
 
 Result<Ray> scene_ray(const ProbeOptions& options, const Scene& scene) {
   const Vec3d origin = options.origin - scene.origin;
-  if (length(origin) > kFarthest) return ray_error("found an origin further than 1e15 from the scene, expected a nearer one");
+  if (length(origin) > kFarthest)
+    return ray_error("found an origin further than 1e15 from the scene, expected a nearer one");
   Ray ray{Vec3(origin), Vec3(options.direction)};
   ray.span.begin = static_cast<float>(options.t_min);
   if (options.t_max) ray.span.end = static_cast<float>(*options.t_max);
@@ -61,7 +62,8 @@ Result<void> parse_ray(const std::string& text, ProbeOptions& options) {
   const auto value = parse_value(param::numbers("--ray", "Ray", {}), text);
   const auto* v = value ? std::get_if<Numbers>(&*value) : nullptr;
   if (!v || v->size() != 6)
-    return ray_error("found \"" + text + "\", expected six numbers ox,oy,oz,dx,dy,dz: where the ray begins and where it goes");
+    return ray_error("found \"" + text +
+                     "\", expected six numbers ox,oy,oz,dx,dy,dz: where the ray begins and where it goes");
   options.origin = {(*v)[0], (*v)[1], (*v)[2]};
   options.direction = {(*v)[3], (*v)[4], (*v)[5]};
   // Scaled first, so that tiny and huge directions have a length.
@@ -90,7 +92,8 @@ Result<ExitCode> run_probe(const ProbeOptions& options) {
 
   WorkerPool pool(options.threads);
   const RayEstimate estimate = estimate_ray(**scene, *ray, options.samples, pool);
-  const auto text = to_json(options, **scene, estimate).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  const auto text =
+      to_json(options, **scene, estimate).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   if (auto done = print_result(text + "\n"); !done) return done.error();
   return ExitCode::Ok;
 }

@@ -10,10 +10,10 @@ namespace brume {
 
 struct ProbeOptions {
   SceneOptions scene;
-  Vec3d origin;                ///< world space
-  Vec3d direction;             ///< unit
-  double t_min = 0;            ///< world units along the unit direction
-  std::optional<double> t_max; ///< none: no end
+  Vec3d origin;                 ///< world space
+  Vec3d direction;              ///< unit
+  double t_min = 0;             ///< world units along the unit direction
+  std::optional<double> t_max;  ///< none: no end
   std::uint64_t samples = 1024;
   int threads = 0;  ///< 0: as many as the machine has
 };

@@ -14,7 +14,7 @@ namespace {
 
 constexpr auto kFirstDraw = std::chrono::milliseconds(500);
 constexpr auto kRedraw = std::chrono::milliseconds(100);
-constexpr int kBarCells = 24;
+constexpr int kBarCells = 16;
 constexpr const char* kClearLine = "\r\x1b[K";
 
 /// Columns that a line may take without wrapping, which would leave copies of it behind.
@@ -82,7 +82,8 @@ std::string ProgressLine::text() const {
 void ProgressLine::draw(const std::stop_token& stop) {
   bool drawn = false;
   std::unique_lock lock(mutex_);
-  for (auto wait = kFirstDraw; !ticked_.wait_for(lock, stop, wait, [&] { return stop.stop_requested(); }); wait = kRedraw) {
+  for (auto wait = kFirstDraw; !ticked_.wait_for(lock, stop, wait, [&] { return stop.stop_requested(); });
+       wait = kRedraw) {
     std::fputs((kClearLine + text()).c_str(), stderr);
     drawn = true;
   }

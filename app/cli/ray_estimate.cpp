@@ -10,9 +10,9 @@
 namespace brume {
 namespace {
 
-/// Running mean and sum of squared deviations of colours. Welford 1962, "Note on a Method for Calculating Corrected Sums
-/// of Squares and Products"; merged as in Chan, Golub & LeVeque 1979, "Updating Formulae and a Pairwise Algorithm for
-/// Computing Sample Variances", eq. 2.1.
+/// Running mean and sum of squared deviations of colours. Welford 1962, "Note on a Method for Calculating Corrected
+/// Sums of Squares and Products"; merged as in Chan, Golub & LeVeque 1979, "Updating Formulae and a Pairwise Algorithm
+/// for Computing Sample Variances", eq. 2.1.
 struct Moments {
   double count = 0;
   std::array<double, 3> mean = {}, m2 = {};
@@ -62,7 +62,8 @@ struct Part {
   }
 };
 
-void add_pair(const Scene& scene, const Integrator& integrator, const Ray& ray, std::uint32_t pair, Worker& worker, Part& part) {
+void add_pair(const Scene& scene, const Integrator& integrator, const Ray& ray, std::uint32_t pair, Worker& worker,
+              Part& part) {
   Color radiance[2];
   RayDiagnostics met[2];
   for (std::uint32_t k = 0; k < 2; ++k) {

@@ -10,7 +10,7 @@
 #include "app/cli/progress_line.h"
 #include "app/cli/render_report.h"
 #include "renderer/core/atomic_file.h"
-#include "renderer/engine/engine.h"
+#include "renderer/engine/first_look.h"
 
 namespace brume {
 namespace {
@@ -102,13 +102,14 @@ RenderStatistics render_with_progress(const Scene& scene, const Budget& budget, 
 void print_summary(const RenderOptions& options, const Scene& scene, const RenderStatistics& s, double noise,
                    bool interrupted) {
   for (const auto& [count, text] : {std::pair{s.rays.non_finite, " samples were not finite and were left out"},
-                                    std::pair{s.rays.march.capped, " marches were too long for the step size and took "
-                                                                   "longer steps; raise step_size"}})
+                                    std::pair{s.rays.march.capped,
+                                              " marches were too long for the step size and took "
+                                              "longer steps; raise step_size"}})
     if (count > 0) print_warning(std::to_string(count) + text);
   std::string text = interrupted ? "interrupted; " : "";
-  text += "wrote " + options.output + ": " + std::to_string(scene.film.width) + "x" + std::to_string(scene.film.height) +
-          ", " + std::to_string(s.samples_per_pixel) + (s.samples_per_pixel == 1 ? " sample" : " samples") +
-          " per pixel in " + format_duration(s.wall_seconds);
+  text += "wrote " + options.output + ": " + std::to_string(scene.film.width) + "x" +
+          std::to_string(scene.film.height) + ", " + std::to_string(s.samples_per_pixel) +
+          (s.samples_per_pixel == 1 ? " sample" : " samples") + " per pixel in " + format_duration(s.wall_seconds);
   if (noise > 0) text += ", noise " + percent(noise);
   print_note(text);
 }
@@ -145,10 +146,19 @@ Result<ExitCode> run_render(const RenderOptions& options) {
   const bool interrupted = InterruptGuard::requested() && !budget.used_up(statistics);
 
   const double noise = film.noise_estimate();
-  if (auto done = write_picture(options.output, film.mean_image(), loaded->description); !done) return done.error();
+  Picture picture;
+  picture.image = film.mean_image();
+  if (auto done = write_picture(options.output, picture.image, loaded->description); !done) return done.error();
+  if (const auto why = explain_black(*scene, picture)) print_warning("the picture is black. " + *why);
   if (!options.statistics_file.empty()) {
-    const RenderReport report{options.scene.file, options.output, *scene, statistics, noise, load_seconds,
-                              grid_memory_bytes(loaded->description, grids), interrupted};
+    const RenderReport report{options.scene.file,
+                              options.output,
+                              *scene,
+                              statistics,
+                              noise,
+                              load_seconds,
+                              grid_memory_bytes(loaded->description, grids),
+                              interrupted};
     if (auto done = write_text_atomically(options.statistics_file, format_report(report)); !done) return done.error();
   }
   print_summary(options, *scene, statistics, noise, interrupted);

@@ -49,7 +49,9 @@ std::string vector_text(Vec3d v) {
   return "[" + short_number(v.x) + ", " + short_number(v.y) + ", " + short_number(v.z) + "]";
 }
 
-std::string bounds_text(const Bounds3& b) { return b.empty() ? "-" : vector_text(b.low) + " .. " + vector_text(b.high); }
+std::string bounds_text(const Bounds3& b) {
+  return b.empty() ? "-" : vector_text(b.low) + " .. " + vector_text(b.high);
+}
 
 std::string steps_text(const Scene& scene) {
   if (!scene.needs.lookups) return "none: rays cross homogeneous media in one segment";
@@ -63,8 +65,8 @@ Json bounds_json(const Bounds3& b) {
 }
 
 Json needs_json(const SceneNeeds& n) {
-  return {{"text", n.to_string()},  {"channels", n.channels},       {"emission", n.emission}, {"overlap", n.overlap},
-          {"lookups", n.lookups},   {"equiangular", n.equiangular}, {"surfaces", n.surfaces}, {"time", n.time}};
+  return {{"text", n.to_string()}, {"channels", n.channels},       {"emission", n.emission}, {"overlap", n.overlap},
+          {"lookups", n.lookups},  {"equiangular", n.equiangular}, {"surfaces", n.surfaces}, {"time", n.time}};
 }
 
 }  // namespace
@@ -97,13 +99,15 @@ std::string scene_as_text(const SceneInfo& info) {
   text += "\nvolumes: " + std::to_string(volumes.size()) + "\n";
   rows.clear();
   for (std::size_t i = 0; i < volumes.size(); ++i)
-    rows.push_back({name_of(volumes[i], i), volumes[i].kind(), bounds_text(info.volume_bounds[i]), values_text(volumes[i], Values::Changed)});
+    rows.push_back({name_of(volumes[i], i), volumes[i].kind(), bounds_text(info.volume_bounds[i]),
+                    values_text(volumes[i], Values::Changed)});
   text += format_table(rows, "llll", 2);
 
   const auto lights = d.list("lights");
   text += "\nlights: " + std::to_string(lights.size()) + "\n";
   rows.clear();
-  for (std::size_t i = 0; i < lights.size(); ++i) rows.push_back({name_of(lights[i], i), lights[i].kind(), values_text(lights[i], Values::All)});
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    rows.push_back({name_of(lights[i], i), lights[i].kind(), values_text(lights[i], Values::All)});
   text += format_table(rows, "lll", 2);
 
   for (const std::string& note : info.loaded.notes) text += "\nnote: " + note;
@@ -116,7 +120,8 @@ std::string scene_as_json(const SceneInfo& info) {
   const Scene& scene = *info.scene;
   Json json;
   json["file"] = info.file;
-  json["description"] = Json::parse(write_node(info.loaded.description, scene_family(), {.target_dir = "", .all = true}));
+  json["description"] =
+      Json::parse(write_node(info.loaded.description, scene_family(), {.target_dir = "", .all = true}));
   Json& resolved = json["resolved"];
   resolved["step_size"] = scene.step_size;
   resolved["shadow_step_size"] = scene.shadow_step_size;

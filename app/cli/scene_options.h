@@ -16,7 +16,7 @@ struct Setting {
 };
 
 struct SceneOptions {
-  std::string file;                ///< .json, .vdb, .nvdb, or a picture that Brume wrote
+  std::string file;               ///< .json, .vdb, .nvdb, or a picture that Brume wrote
   std::vector<Setting> settings;  ///< applied in this order
 };
 

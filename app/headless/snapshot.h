@@ -13,7 +13,7 @@ struct SnapshotOptions {
   std::string file;    ///< scene, grid file, or picture made by Brume
   std::string output;  ///< .png
   int width = 1400, height = 900;
-  int samples = 16;    ///< per pixel
+  int samples = 16;                                            ///< per pixel
   std::vector<std::pair<std::string, std::string>> overrides;  ///< key, value as for --set
 };
 

@@ -172,6 +172,11 @@ bool Session::idle() const {
   return !wish_ && !outcome_ && working_on_.empty();
 }
 
+bool Session::up_to_date() const {
+  const auto shown = picture();
+  return idle() && scene_ && shown && shown->generation == scene_->generation && shown->width == width_ && shown->height == height_;
+}
+
 void Session::request(Wish wish) {
   const std::lock_guard lock(mutex_);
   // A newer edit supersedes a commit under way, but an edit made while a file is being opened waits for nothing: the
@@ -242,7 +247,7 @@ void Session::take(Outcome outcome) {
     undo_.clear();
     redo_.clear();
     step_open_ = false;
-    say(LogLevel::Info, "Opened " + outcome.wish.open + ".");
+    say(LogLevel::Info, "Opened " + file_name(outcome.wish.open) + ".");
     for (std::string& note : outcome.loaded->notes) say(LogLevel::Info, std::move(note));
   }
   if (outcome.error) {

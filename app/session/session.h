@@ -69,8 +69,8 @@ class Session {
   std::shared_ptr<const Picture> picture() const { return engine_.picture(); }
   /// The scene of the newest successful commit; null before the first.
   std::shared_ptr<const Scene> scene() const { return scene_; }
-  /// Generation of the newest edit; a picture with a lower one is being replaced.
-  std::uint64_t generation() const { return generation_; }
+  /// The picture is of the newest edit and of the size asked for.
+  bool up_to_date() const;
   bool paused() const { return engine_.paused(); }
   void set_paused(bool paused) { engine_.pause(paused); }
   void restart();

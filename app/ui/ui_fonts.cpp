@@ -9,12 +9,9 @@ std::string find_shared_file(const std::string& relative_path) {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (error) return {};
-  // Installed: bin/brume and share/brume. While developing: build/<preset>/bin/brume in the source tree.
-  for (const char* base : {"../share/brume", "../../.."}) {
-    const fs::path candidate = (program.parent_path() / base / relative_path).lexically_normal();
-    if (fs::exists(candidate, error)) return candidate.string();
-  }
-  return {};
+  // The build tree has the shape of the installed one: bin/brume and share/brume.
+  const fs::path candidate = (program.parent_path() / "../share/brume" / relative_path).lexically_normal();
+  return fs::exists(candidate, error) ? candidate.string() : std::string();
 }
 
 std::vector<std::string> ui_font_paths() {

@@ -64,7 +64,8 @@ Result<void> force_simd_level(const std::string& name) {
     }
     known += (known.empty() ? "" : ", ") + level.name;
   }
-  return bad_input("SIMD level \"" + name + "\" is unknown or not supported by this processor; expected auto, " + known);
+  return bad_input("SIMD level \"" + name + "\" is unknown or not supported by this processor; expected auto, " +
+                   known);
 }
 
 }  // namespace brume

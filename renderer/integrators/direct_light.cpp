@@ -106,11 +106,11 @@ struct LightSampling {
     return scattered * to_color(shadow_transmittance<C>(scene.media, shadow, settings, context.arena, context.statistics.march));
   }
 
-  /// One light sample by density sampling, j-th of n, already divided by n and the pdf.
+  /// One light sample by density sampling, already divided by the pdf and by n.
+  /// @param u  of the distance.  @param n  samples of this technique, on average over the passes
   /// @param other  the technique it is combined with, or null
-  Color by_density(const Light& light, const LightPoint& point, int j, float n, int index, const EquiangularSampling* other) const {
-    const float xi = context.sampler.u1(Decision::DensityDistance, bounce, index);
-    const DistanceSample drawn = density.sample(stratified(j, n, xi));
+  Color by_density(const Light& light, const LightPoint& point, float u, float n, int index, const EquiangularSampling* other) const {
+    const DistanceSample drawn = density.sample(u);
     const RayPoint<C> at = evaluate(record, drawn.t);
     const float pdf = density.pdf(at);
     if (!(pdf > 0)) return {};
@@ -119,10 +119,9 @@ struct LightSampling {
     return scattered_from(light, point, at, index) * (weight / (n * pdf));
   }
 
-  Color by_equiangular(const Light& light, const LightPoint& point, int j, float n, int index, const EquiangularSampling& equiangular,
+  Color by_equiangular(const Light& light, const LightPoint& point, float u, float n, int index, const EquiangularSampling& equiangular,
                        bool combined) const {
-    const float xi = context.sampler.u1(Decision::EquiangularDistance, bounce, index);
-    const DistanceSample drawn = equiangular.sample(stratified(j, n, xi));
+    const DistanceSample drawn = equiangular.sample(u);
     if (!(drawn.pdf_t > 0)) return {};
     const RayPoint<C> at = evaluate(record, drawn.t);
     const float weight = combined ? mis_weight(context.scene.render.mis_heuristic, drawn.pdf_t, density.pdf(at)) : 1;
@@ -130,10 +129,11 @@ struct LightSampling {
     return scattered_from(light, point, at, index) * (weight / (n * drawn.pdf_t));
   }
 
-  /// The j-th of n strata. With n = 1/2 (a technique that has its turn every other pass) there is one stratum.
-  static float stratified(int j, float n, float xi) {
-    const float strata = std::max(1.0f, n);
-    return std::min((static_cast<float>(j) + xi) / strata, 0x1.fffffep-1f);
+  /// A number for `distance` in the j-th of the strata: as many as the technique has samples in this very pass, or the
+  /// strata would not cover [0,1) just once.
+  float stratified(Decision distance, int j, int strata, int index) const {
+    const float xi = context.sampler.u1(distance, bounce, index);
+    return std::min((static_cast<float>(j) + xi) / static_cast<float>(strata), 0x1.fffffep-1f);
   }
 
   /// All the samples of one light.  @param first_index  of its first light sample
@@ -150,17 +150,21 @@ struct LightSampling {
       const Interval lit = intersect(record.span(), light.lit_part(point, {ray.origin, ray.direction, record.span()}));
       if (lit.empty()) continue;
       if (point.kind != LightPoint::Kind::Finite || render.distance_sampling == DistanceSampling::Density) {
-        sum += by_density(light, point, k, static_cast<float>(samples), index, nullptr);
+        sum += by_density(light, point, stratified(Decision::DensityDistance, k, samples, index), static_cast<float>(samples), index, nullptr);
         continue;
       }
       const EquiangularSampling equiangular(ray, point.position, lit);
       if (render.distance_sampling == DistanceSampling::Equiangular) {
-        sum += by_equiangular(light, point, k, static_cast<float>(samples), index, equiangular, false);
+        sum += by_equiangular(light, point, stratified(Decision::EquiangularDistance, k, samples, index), static_cast<float>(samples), index,
+                              equiangular, false);
         continue;
       }
       const float each = 0.5f * static_cast<float>(samples);
-      sum += k < of_density ? by_density(light, point, k, each, index, &equiangular)
-                            : by_equiangular(light, point, k - of_density, each, index, equiangular, true);
+      if (k < of_density)
+        sum += by_density(light, point, stratified(Decision::DensityDistance, k, of_density, index), each, index, &equiangular);
+      else
+        sum += by_equiangular(light, point, stratified(Decision::EquiangularDistance, k - of_density, samples - of_density, index), each,
+                              index, equiangular, true);
     }
     return sum;
   }

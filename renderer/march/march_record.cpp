@@ -105,7 +105,7 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
     rec.medium_density = arena.alloc_span<float*>(media.size()).data();
     for (std::size_t m = 0; m < media.size(); ++m) rec.medium_density[m] = zeros();
   }
-  float* t = arena.alloc_span<float>(n + 2).data();  // distribute() reads whole vectors from t + 1
+  float* t = arena.alloc_span<float>(n + 16).data();  // distribute() reads whole vectors, up to 16, from t + 1
   for (const Stretch& s : stretches)
     for (int i = 0; i < s.count; ++i) t[s.first + i] = s.span.begin + static_cast<float>(i) * s.step;
   t[n] = stretches.back().span.end;

@@ -99,8 +99,8 @@ LeafSummary mend_and_summarise(LeafBlock& leaf, const VoxelBox& box) {
       bool row_filled = false;
       for (int z = 0; z < kLeaf; ++z) row_filled |= row[z] != 0;
       const unsigned in_row = (row_filled ? 1u : 0u) | (row[0] != 0 ? 2u : 0u);  // bits d = 0 (all z) and d = 1 (z = 0)
-      s.filled = static_cast<std::uint8_t>(s.filled | in_row | (y == 0 ? in_row << 2 : 0u) | (x == 0 ? in_row << 4 : 0u) |
-                                           (x == 0 && y == 0 ? in_row << 6 : 0u));
+      s.filled = static_cast<std::uint8_t>(s.filled | in_row | (y == 0 ? in_row << 2 : 0u) |
+                                           (x == 0 ? in_row << 4 : 0u) | (x == 0 && y == 0 ? in_row << 6 : 0u));
     }
   return s;
 }
@@ -154,7 +154,8 @@ class BrickBuilder {
     fill_table();
     number_bricks();
     if (options_.cancel.stop_requested()) return cancelled();
-    if (auto enough = check_memory(blocks_.leaves.size() * sizeof(LeafBlock) + grid_.table_.size() * 4 + value_bytes()); !enough)
+    if (auto enough = check_memory(blocks_.leaves.size() * sizeof(LeafBlock) + grid_.table_.size() * 4 + value_bytes());
+        !enough)
       return enough.error();
     if (!fill_values()) return cancelled();
     return std::move(grid_);
@@ -169,7 +170,8 @@ class BrickBuilder {
 
   Result<void> find_extent() {
     VoxelBox& box = active_;
-    for (const LeafBlock& leaf : blocks_.leaves) grid_.active_voxels_ += static_cast<std::uint64_t>(add_active(leaf, box));
+    for (const LeafBlock& leaf : blocks_.leaves)
+      grid_.active_voxels_ += static_cast<std::uint64_t>(add_active(leaf, box));
     for (const TileBlock& tile : blocks_.tiles) {
       if (!tile.active) continue;
       const auto size = static_cast<std::uint64_t>(tile.size);
@@ -187,9 +189,10 @@ class BrickBuilder {
     const std::int64_t limit = BrickGrid::kMaxTableEntries;
     // The first test keeps the products of the second within 63 bits.
     if (longest > BrickGrid::kMaxExtent || extent_.x * extent_.y > limit || extent_.x * extent_.y * extent_.z > limit)
-      return bad_input("the active voxels span " + std::to_string(extent_.x * kLeaf) + " x " + std::to_string(extent_.y * kLeaf) +
-                       " x " + std::to_string(extent_.z * kLeaf) + " voxels, more than Brume can index (" +
-                       std::to_string(limit) + " blocks of 8^3 voxels, " + std::to_string(BrickGrid::kMaxExtent) +
+      return bad_input("the active voxels span " + std::to_string(extent_.x * kLeaf) + " x " +
+                       std::to_string(extent_.y * kLeaf) + " x " + std::to_string(extent_.z * kLeaf) +
+                       " voxels, more than Brume can index (" + std::to_string(limit) + " blocks of 8^3 voxels, " +
+                       std::to_string(BrickGrid::kMaxExtent) +
                        " voxels along an axis); crop the grid or remove stray voxels");
     const Index64 origin = first_ * std::int64_t{kLeaf};
     if (std::min({origin.x, origin.y, origin.z}) < std::numeric_limits<int>::min())
@@ -224,7 +227,8 @@ class BrickBuilder {
     summaries_.resize(blocks_.leaves.size());
     const auto leaves = static_cast<std::int64_t>(blocks_.leaves.size());
     const bool finished = chunked(leaves, options_, 0.0f, 0.4f, [&](std::int64_t i) {
-      summaries_[static_cast<std::size_t>(i)] = mend_and_summarise(blocks_.leaves[static_cast<std::size_t>(i)], active_);
+      summaries_[static_cast<std::size_t>(i)] =
+          mend_and_summarise(blocks_.leaves[static_cast<std::size_t>(i)], active_);
     });
     if (!finished) return false;
     for (const LeafSummary& s : summaries_) {
@@ -254,8 +258,7 @@ class BrickBuilder {
   }
 
   /// Calls f(place in bricks, table element) for the part of the tile that lies in the table.
-  template <class F>
-  void for_bricks(const TileBlock& tile, const F& f) {
+  template <class F> void for_bricks(const TileBlock& tile, const F& f) {
     const Index64 low = Index64(tile.origin), last = low + Index64(tile.size - 1);
     Index64 from, to;
     for (int axis = 0; axis < 3; ++axis) {
@@ -304,38 +307,45 @@ class BrickBuilder {
   /// Replaces contents by brick numbers. A brick needs the contents at and after its own place only, and places are
   /// visited in rising order, so this works in place.
   void number_bricks() {
-    std::int32_t next = 1;
     std::unordered_map<Content, std::int32_t> brick_of_constant;
-    const std::int64_t step[3] = {extent_.y * extent_.z, extent_.z, 1};
-    std::size_t at = 1;
+    const std::vector<Content> beyond(static_cast<std::size_t>(extent_.z), 0);  // the row outside the table
+    std::vector<Content> any(static_cast<std::size_t>(extent_.z + 1), 0);  // bits of all contents at z in four rows
+    const auto row_at = [&](std::int64_t x, std::int64_t y) {
+      if (x == extent_.x || y == extent_.y) return beyond.data();
+      return static_cast<const Content*>(grid_.table_.data()) + 1 + (x * extent_.y + y) * extent_.z;
+    };
+    Content* row = grid_.table_.data() + 1;
     for (std::int64_t x = 0; x < extent_.x; ++x)
-      for (std::int64_t y = 0; y < extent_.y; ++y) {
+      for (std::int64_t y = 0; y < extent_.y; ++y, row += extent_.z) {
         if (options_.cancel.stop_requested()) return;
-        for (std::int64_t z = 0; z < extent_.z; ++z, ++at) {
+        const Content* rows[4] = {row, row_at(x, y + 1), row_at(x + 1, y), row_at(x + 1, y + 1)};
+        // Tables are mostly empty; this loop is a vector loop, and the next one skips.
+        for (std::int64_t z = 0; z < extent_.z; ++z)
+          any[static_cast<std::size_t>(z)] = rows[0][z] | rows[1][z] | rows[2][z] | rows[3][z];
+        for (std::int64_t z = 0; z < extent_.z; ++z) {
+          if ((any[static_cast<std::size_t>(z)] | any[static_cast<std::size_t>(z + 1)]) == 0) continue;
           Stored stored;
-          bool filled = false, same = true;
-          for (int d = 0; d < 8; ++d) {
-            const std::int64_t dx = d >> 2 & 1, dy = d >> 1 & 1, dz = d & 1;
-            const bool inside = x + dx < extent_.x && y + dy < extent_.y && z + dz < extent_.z;
-            const std::int64_t offset = dx * step[0] + dy * step[1] + dz * step[2];
-            const Content c = inside ? grid_.table_[at + static_cast<std::size_t>(offset)] : 0;
-            stored.parts[d] = c;
-            filled |= part_filled(c, d);
-            same &= c == stored.parts[0];
-          }
-          std::int32_t& number = grid_.table_[at];
-          if (!filled) {
-            number = 0;
-          } else if (same && stored.parts[0] < 0) {
-            const auto [entry, is_new] = brick_of_constant.try_emplace(stored.parts[0], next);
-            if (is_new) stored_.push_back(stored), ++next;
-            number = entry->second;
-          } else {
-            stored_.push_back(stored);
-            number = next++;
-          }
+          for (int d = 0; d < 8; ++d) stored.parts[d] = z + (d & 1) < extent_.z ? rows[d >> 1][z + (d & 1)] : 0;
+          row[z] = number(stored, brick_of_constant);
         }
       }
+  }
+
+  /// The brick that is put together from these contents: 0, one that exists already, or a new one.
+  std::int32_t number(const Stored& stored, std::unordered_map<Content, std::int32_t>& brick_of_constant) {
+    bool filled = false, same = true;
+    for (int d = 0; d < 8; ++d) {
+      filled |= part_filled(stored.parts[d], d);
+      same &= stored.parts[d] == stored.parts[0];
+    }
+    if (!filled) return 0;
+    const auto next = static_cast<std::int32_t>(stored_.size() + 1);
+    if (same && stored.parts[0] < 0) {
+      const auto [entry, is_new] = brick_of_constant.try_emplace(stored.parts[0], next);
+      if (!is_new) return entry->second;
+    }
+    stored_.push_back(stored);
+    return next;
   }
 
   std::uint64_t value_bytes() const { return (stored_.size() + 1) * BrickGrid::kBrickFloats * sizeof(float); }

@@ -17,7 +17,8 @@ float BrickGrid::voxel(VoxelIndex index) const {
   }
   const std::int64_t at = 1 + (place[0] * table_extent_.y + place[1]) * table_extent_.z + place[2];
   const std::int64_t brick = table_[static_cast<std::size_t>(at)];
-  return values_[static_cast<std::size_t>(brick * kBrickFloats + (local[0] * kCorners + local[1]) * kCorners + local[2])];
+  return values_[static_cast<std::size_t>(brick * kBrickFloats + (local[0] * kCorners + local[1]) * kCorners +
+                                          local[2])];
 }
 
 }  // namespace brume

@@ -28,9 +28,9 @@ struct LoadOptions {
 /// 8x8x8 voxels as they lie in a tree. Voxel (x,y,z) of the block is element (x * 8 + y) * 8 + z.
 struct LeafBlock {
   static constexpr int kSize = 8, kVoxels = 512;
-  VoxelIndex origin;                   ///< of voxel (0,0,0); multiples of 8
-  std::array<std::uint64_t, 8> active; ///< bit (e % 64) of word e / 64 for element e
-  std::array<float, kVoxels> values;   ///< inactive voxels have values too
+  VoxelIndex origin;                    ///< of voxel (0,0,0); multiples of 8
+  std::array<std::uint64_t, 8> active;  ///< bit (e % 64) of word e / 64 for element e
+  std::array<float, kVoxels> values;    ///< inactive voxels have values too
 
   bool is_active(int e) const { return active[static_cast<unsigned>(e) / 64] >> (e % 64) & 1; }
 };
@@ -57,9 +57,9 @@ struct VoxelBlocks {
 /// Values are finite and >= 0: others were replaced by 0 and counted. Immutable; any thread.
 class BrickGrid {
  public:
-  static constexpr int kCells = 8;            ///< cells along an edge of a brick
-  static constexpr int kCorners = 9;          ///< voxels stored along an edge
-  static constexpr int kBrickFloats = 736;    ///< 9^3 padded to whole cache lines
+  static constexpr int kCells = 8;                                         ///< cells along an edge of a brick
+  static constexpr int kCorners = 9;                                       ///< voxels stored along an edge
+  static constexpr int kBrickFloats = 736;                                 ///< 9^3 padded to whole cache lines
   static constexpr std::int64_t kMaxTableEntries = std::int64_t{1} << 27;  ///< 512 MiB of table
   /// Voxels along an axis: below this an index relative to the table keeps its fraction in float.
   static constexpr std::int64_t kMaxExtent = std::int64_t{1} << 23;
@@ -76,9 +76,7 @@ class BrickGrid {
   int brick_count() const { return brick_count_; }  ///< with brick 0
 
   /// Index-space box outside which the trilinear interpolant is 0: [min-1, max+1] of the active voxels.
-  Bounds3 support() const {
-    return {Vec3d(active_min_) - Vec3d(1.0), Vec3d(active_max_) + Vec3d(1.0)};
-  }
+  Bounds3 support() const { return {Vec3d(active_min_) - Vec3d(1.0), Vec3d(active_max_) + Vec3d(1.0)}; }
   VoxelIndex active_min() const { return active_min_; }  ///< lowest active voxel along each axis
   VoxelIndex active_max() const { return active_max_; }  ///< highest one, inclusive
 

@@ -26,10 +26,7 @@ constexpr int kBlock = 64;
 
 /// Hides from the optimiser where `p` comes from, so that what was written through it is really in memory: left alone,
 /// GCC 12 takes the vectors apart lane by lane in registers, which costs more than the round trip through the cache.
-template <class T>
-HWY_INLINE void pass_through_memory(T*& p) {
-  asm volatile("" : "+r"(p) : : "memory");
-}
+template <class T> HWY_INLINE void pass_through_memory(T*& p) { asm volatile("" : "+r"(p) : : "memory"); }
 
 /// What one block hands from phase to phase.
 struct Scratch {
@@ -108,8 +105,8 @@ class Addresses {
   std::int32_t row_y_, row_z_, first_slot_;
 };
 
-/// Fetches the corners of one chunk, if any of its bricks has values. Plain code: 8-byte loads of two neighbours along z
-/// beat hardware gathers twice over (march_limit.md, section 2).
+/// Fetches the corners of one chunk, if any of its bricks has values. Plain code: 8-byte loads of two neighbours along
+/// z beat hardware gathers twice over (march_limit.md, section 2).
 HWY_INLINE bool fetch(const std::int32_t* table, const float* values, const std::int32_t* slot,
                       const std::int32_t* corner, float (*pairs)[2 * kChunk]) {
   constexpr int kStepX = BrickGrid::kCorners * BrickGrid::kCorners, kStepY = BrickGrid::kCorners;
@@ -126,8 +123,7 @@ HWY_INLINE bool fetch(const std::int32_t* table, const float* values, const std:
   return true;
 }
 
-template <class V>
-HWY_INLINE V lerp(V f, V a, V b) {
+template <class V> HWY_INLINE V lerp(V f, V a, V b) {
   return hn::MulAdd(f, hn::Sub(b, a), a);  // exactly a where a == b; never negative where a and b are not
 }
 

@@ -145,24 +145,28 @@ void clear_background(VoxelBlocks& blocks, float background) {
 }
 
 std::string background_warning(const std::string& path, const GridInfo& info, float background) {
-  return name_of(info, path) + " has the background value " + std::to_string(background) + "; outside its active voxels 0 is used instead";
+  return name_of(info, path) + " has the background value " + std::to_string(background) +
+         "; outside its active voxels 0 is used instead";
 }
 
 std::size_t choose_grid(const std::string& path, std::span<const GridInfo> grids, const std::string& name) {
   const auto find = [&](const std::string& wanted) {
-    return static_cast<std::size_t>(std::find_if(grids.begin(), grids.end(), [&](const GridInfo& g) { return g.name == wanted; }) - grids.begin());
+    return static_cast<std::size_t>(
+        std::find_if(grids.begin(), grids.end(), [&](const GridInfo& g) { return g.name == wanted; }) - grids.begin());
   };
   std::size_t i = find(name);
   if (i == grids.size()) i = find(name + "[0]");  // the first of several with the name
   if (i == grids.size())
     refuse(in_quotes(path) + " has no grid " + in_quotes(clamped(name)) + "; it has " + list_names(grids, false));
   if (!grids[i].usable)
-    refuse("grid " + in_quotes(clamped(name)) + " of " + in_quotes(path) + " " + grids[i].why_not + "; usable grids: " + list_names(grids, true));
+    refuse("grid " + in_quotes(clamped(name)) + " of " + in_quotes(path) + " " + grids[i].why_not +
+           "; usable grids: " + list_names(grids, true));
   return i;
 }
 
-Result<LoadedGrid> finish_grid(const std::string& path, VoxelBlocks blocks, GridInfo info, const Affined& index_to_world,
-                               std::vector<std::string> warnings, const LoadOptions& options) {
+Result<LoadedGrid> finish_grid(const std::string& path, VoxelBlocks blocks, GridInfo info,
+                               const Affined& index_to_world, std::vector<std::string> warnings,
+                               const LoadOptions& options) {
   auto built = build_brick_grid(std::move(blocks), options);
   const std::string name = name_of(info, path);
   if (!built) {
@@ -171,7 +175,8 @@ Result<LoadedGrid> finish_grid(const std::string& path, VoxelBlocks blocks, Grid
     return error;
   }
   const auto grid = std::make_shared<const BrickGrid>(std::move(*built));
-  if (const auto n = grid->non_finite_voxels()) warnings.push_back(name + ": " + voxels(n) + " not finite (NaN or infinite), taken as 0");
+  if (const auto n = grid->non_finite_voxels())
+    warnings.push_back(name + ": " + voxels(n) + " not finite (NaN or infinite), taken as 0");
   if (const auto n = grid->negative_voxels()) warnings.push_back(name + ": " + voxels(n) + " below 0, taken as 0");
   if (grid->max_value() == 0) warnings.push_back(name + ": every voxel is 0, so nothing will be seen");
   info.memory_bytes = grid->memory_bytes();

@@ -27,8 +27,7 @@ void stop_if_cancelled(const LoadOptions& options);
 LoadOptions part_of(const LoadOptions& options, float from, float to);
 
 /// Runs f() and turns whatever it throws into an error that names the file.
-template <class F>
-auto guard_file(const std::string& path, const F& f) -> decltype(f()) {
+template <class F> auto guard_file(const std::string& path, const F& f) -> decltype(f()) {
   try {
     return f();
   } catch (const FileProblem& problem) {
@@ -65,7 +64,8 @@ void complete_info(GridInfo& info, const Affined& index_to_world);
 /// Fills min, max, non_finite and negative from the active voxels.
 void scan_values(const VoxelBlocks& blocks, GridInfo& info);
 
-/// Takes 0 for the background: wherever inactive voxels of leaves show it. (The blocks list no tiles of the background.)
+/// Takes 0 for the background: wherever inactive voxels of leaves show it. (The blocks list no tiles of the
+/// background.)
 void clear_background(VoxelBlocks& blocks, float background);
 std::string background_warning(const std::string& path, const GridInfo& info, float background);
 
@@ -76,7 +76,8 @@ inline bool same_value(float a, float b) { return a == b || (a != a && b != b); 
 std::size_t choose_grid(const std::string& path, std::span<const GridInfo> grids, const std::string& name);
 
 /// Lays the voxels out as bricks and adds the warnings that come of it.
-Result<LoadedGrid> finish_grid(const std::string& path, VoxelBlocks blocks, GridInfo info, const Affined& index_to_world,
-                               std::vector<std::string> warnings, const LoadOptions& options);
+Result<LoadedGrid> finish_grid(const std::string& path, VoxelBlocks blocks, GridInfo info,
+                               const Affined& index_to_world, std::vector<std::string> warnings,
+                               const LoadOptions& options);
 
 }  // namespace brume

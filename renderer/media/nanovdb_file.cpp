@@ -30,9 +30,9 @@ class AlignedBytes {
   std::span<std::byte> span() { return {blocks_.data()->bytes, size_}; }
 
   /// `count` structs from `offset` on; throws Damaged when they are not all there.
-  template <class T>
-  const T* at(std::uint64_t offset, std::uint64_t count = 1) const {
-    if (offset > size_ || offset % kAlignment != 0 || count > (size_ - offset) / sizeof(T)) throw Damaged{"its nodes lie outside it"};
+  template <class T> const T* at(std::uint64_t offset, std::uint64_t count = 1) const {
+    if (offset > size_ || offset % kAlignment != 0 || count > (size_ - offset) / sizeof(T))
+      throw Damaged{"its nodes lie outside it"};
     return reinterpret_cast<const T*>(blocks_.data()->bytes + offset);
   }
 
@@ -54,16 +54,26 @@ struct Entry {
 
 const char* type_name(nanovdb::GridType type) {
   switch (type) {
-    case nanovdb::GridType::Float: return "float";
-    case nanovdb::GridType::Double: return "double";
-    case nanovdb::GridType::Int32: return "int32";
-    case nanovdb::GridType::Fp4: return "Fp4";
-    case nanovdb::GridType::Fp8: return "Fp8";
-    case nanovdb::GridType::Fp16: return "Fp16";
-    case nanovdb::GridType::FpN: return "FpN";
-    case nanovdb::GridType::Vec3f: return "vec3s";
-    case nanovdb::GridType::Vec3d: return "vec3d";
-    default: return "other";
+    case nanovdb::GridType::Float:
+      return "float";
+    case nanovdb::GridType::Double:
+      return "double";
+    case nanovdb::GridType::Int32:
+      return "int32";
+    case nanovdb::GridType::Fp4:
+      return "Fp4";
+    case nanovdb::GridType::Fp8:
+      return "Fp8";
+    case nanovdb::GridType::Fp16:
+      return "Fp16";
+    case nanovdb::GridType::FpN:
+      return "FpN";
+    case nanovdb::GridType::Vec3f:
+      return "vec3s";
+    case nanovdb::GridType::Vec3d:
+      return "vec3d";
+    default:
+      return "other";
   }
 }
 
@@ -73,17 +83,31 @@ const char* class_name(std::uint32_t grid_class) {
 }
 
 /// Calls f(type tag) with the build type of the grid; false when Brume does not read the type.
-template <class F>
-bool with_type(nanovdb::GridType type, const F& f) {
+template <class F> bool with_type(nanovdb::GridType type, const F& f) {
   switch (type) {
-    case nanovdb::GridType::Float: f(float{}); return true;
-    case nanovdb::GridType::Double: f(double{}); return true;
-    case nanovdb::GridType::Int32: f(std::int32_t{}); return true;
-    case nanovdb::GridType::Fp4: f(nanovdb::Fp4{}); return true;
-    case nanovdb::GridType::Fp8: f(nanovdb::Fp8{}); return true;
-    case nanovdb::GridType::Fp16: f(nanovdb::Fp16{}); return true;
-    case nanovdb::GridType::FpN: f(nanovdb::FpN{}); return true;
-    default: return false;
+    case nanovdb::GridType::Float:
+      f(float{});
+      return true;
+    case nanovdb::GridType::Double:
+      f(double{});
+      return true;
+    case nanovdb::GridType::Int32:
+      f(std::int32_t{});
+      return true;
+    case nanovdb::GridType::Fp4:
+      f(nanovdb::Fp4{});
+      return true;
+    case nanovdb::GridType::Fp8:
+      f(nanovdb::Fp8{});
+      return true;
+    case nanovdb::GridType::Fp16:
+      f(nanovdb::Fp16{});
+      return true;
+    case nanovdb::GridType::FpN:
+      f(nanovdb::FpN{});
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -112,7 +136,8 @@ Entry read_entry(Cursor& c, std::uint16_t codec) {
   e.info.type = type_name(e.type);
   e.info.codec = codec == kZip ? "zip" : codec == kBlosc ? "blosc" : "none";
   if (!with_type(e.type, [](auto) {})) e.info.why_not = "is of type " + e.info.type + ", not a scalar that Brume reads";
-  if (e.info.grid_class == "level set") e.info.why_not = "is a level set; convert it to a fog volume, or load it from a .vdb file";
+  if (e.info.grid_class == "level set")
+    e.info.why_not = "is a level set; convert it to a fog volume, or load it from a .vdb file";
   return e;
 }
 
@@ -126,7 +151,8 @@ std::vector<Entry> read_entries(InputFile& file) {
     if (data.size() < kHeader || (c.get<std::uint64_t>() & 0xFFFFFFFFFFFFFFULL) != kMagicStart)
       throw Damaged{at == 0 ? "it does not begin like a .nvdb file" : "it has no further grid where one should be"};
     const std::uint32_t abi = c.get<std::uint32_t>() >> 21;
-    if (abi != kAbi) throw Damaged{"its memory layout is version " + std::to_string(abi) + ", and Brume reads version 32"};
+    if (abi != kAbi)
+      throw Damaged{"its memory layout is version " + std::to_string(abi) + ", and Brume reads version 32"};
     const auto count = c.get<std::uint16_t>(), codec = c.get<std::uint16_t>();
     const std::size_t first = entries.size();
     for (int i = 0; i < count; ++i) entries.push_back(read_entry(c, codec));
@@ -143,11 +169,12 @@ std::vector<Entry> read_entries(InputFile& file) {
 
 AlignedBytes read_grid(const std::string& path, InputFile& file, const Entry& e, const LoadOptions& options) {
   constexpr std::uint64_t kBloscPiece = 1 << 30;
+  constexpr std::uint64_t kBestRatio = 1100;  // zlib's best is 1032, of zeros
+  if (e.codec == kNone ? e.size != e.grid_size : e.grid_size / kBestRatio > e.size) throw Damaged{"its size is wrong"};
   if (auto enough = check_memory(e.grid_size); !enough) refuse(name_of(e.info, path) + ": " + enough.error().message);
   const std::vector<std::byte> data = file.read(e.begin, e.size, options);
   AlignedBytes grid(e.grid_size);
   if (e.codec == kNone) {
-    if (e.size != e.grid_size) throw Damaged{"its size is wrong"};
     std::copy(data.begin(), data.end(), grid.span().begin());
   } else if (e.codec == kZip || e.codec == kBlosc) {
     Cursor c(data);
@@ -175,8 +202,7 @@ Affined index_to_world(const AlignedBytes& grid) {
 }
 
 /// Reads the nodes level by level as they lie, following no pointer; positions are made multiples of the node's size.
-template <class Build>
-class NodeReader {
+template <class Build> class NodeReader {
  public:
   NodeReader(const AlignedBytes& grid, float& background, VoxelBlocks& blocks) : grid_(grid), blocks_(blocks) {
     const auto* tree = grid.at<nanovdb::TreeData<3>>(kTree);
@@ -194,25 +220,21 @@ class NodeReader {
  private:
   static constexpr std::uint64_t kTree = sizeof(nanovdb::GridData);
 
-  template <class T>
-  const T* node(std::uint64_t offset, std::uint64_t count) const {
+  template <class T> const T* node(std::uint64_t offset, std::uint64_t count) const {
     if (offset > std::uint64_t{1} << 48) throw Damaged{"its nodes lie outside it"};  // so that the sum cannot wrap
     return grid_.at<T>(kTree + offset, count);
   }
 
-  template <class C>
-  static VoxelIndex origin(const C& coord, int size) {
+  template <class C> static VoxelIndex origin(const C& coord, int size) {
     return {coord[0] & -size, coord[1] & -size, coord[2] & -size};
   }
 
-  template <class C, class V>
-  void add_tile(const C& coord, int size, V value, bool active) {
+  template <class C, class V> void add_tile(const C& coord, int size, V value, bool active) {
     const float v = static_cast<float>(value);
     if (active || !same_value(v, background_)) blocks_.tiles.push_back({origin(coord, size), size, v, active});
   }
 
-  template <class Node>
-  void internal(std::uint64_t offset, std::uint32_t count, int child_size) {
+  template <class Node> void internal(std::uint64_t offset, std::uint32_t count, int child_size) {
     constexpr int kLog2 = static_cast<int>(Node::LOG2DIM), kLow = (1 << kLog2) - 1;
     const auto* nodes = node<typename Node::DataType>(offset, count);
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -232,7 +254,8 @@ class NodeReader {
       const Leaf* first = node<Leaf>(offset, count);
       resize(count);
       parallel_for(static_cast<int>((count + 255) / 256), [&](int c) {
-        for (std::uint32_t i = static_cast<std::uint32_t>(c) * 256; i < std::min(count, (static_cast<std::uint32_t>(c) + 1) * 256); ++i)
+        for (std::uint32_t i = static_cast<std::uint32_t>(c) * 256;
+             i < std::min(count, (static_cast<std::uint32_t>(c) + 1) * 256); ++i)
           copy(first[i], blocks_.leaves[i]);
       });
     } else {
@@ -248,12 +271,12 @@ class NodeReader {
   }
 
   void resize(std::uint32_t count) {
-    if (auto enough = check_memory(std::uint64_t{count} * sizeof(LeafBlock)); !enough) throw Damaged{enough.error().message};
+    if (auto enough = check_memory(std::uint64_t{count} * sizeof(LeafBlock)); !enough)
+      throw Damaged{enough.error().message};
     blocks_.leaves.resize(count);
   }
 
-  template <class Leaf>
-  static void copy(const Leaf& from, LeafBlock& to) {
+  template <class Leaf> static void copy(const Leaf& from, LeafBlock& to) {
     to.origin = origin(from.mBBoxMin, LeafBlock::kSize);
     to.active.fill(0);
     for (unsigned n = 0; n < LeafBlock::kVoxels; ++n) {
@@ -283,8 +306,7 @@ Loaded read_voxels(const std::string& path, InputFile& file, Entry& e, const Loa
   return loaded;
 }
 
-template <class F>
-auto guard(const std::string& path, const F& f) -> decltype(f()) {
+template <class F> auto guard(const std::string& path, const F& f) -> decltype(f()) {
   return guard_file(path, [&]() -> decltype(f()) {
     try {
       return f();
@@ -310,7 +332,8 @@ std::vector<GridInfo> infos_of(const std::string& path, InputFile& file, std::ve
     } else {
       map = index_to_world(read_grid(path, file, e, {}));
     }
-    e.info.memory_bytes = e.info.active_voxels.value_or(0) / 300 * (BrickGrid::kBrickFloats * sizeof(float));  // a usual filling
+    e.info.memory_bytes =
+        e.info.active_voxels.value_or(0) / 300 * (BrickGrid::kBrickFloats * sizeof(float));  // a usual filling
     complete_info(e.info, map);
     infos.push_back(e.info);
   }
@@ -327,7 +350,8 @@ Result<std::vector<GridInfo>> list_nanovdb_grids(const std::string& path, bool s
   });
 }
 
-Result<LoadedGrid> load_nanovdb_grid(const std::string& path, const std::string& grid_name, const LoadOptions& options) {
+Result<LoadedGrid> load_nanovdb_grid(const std::string& path, const std::string& grid_name,
+                                     const LoadOptions& options) {
   return guard(path, [&]() -> Result<LoadedGrid> {
     InputFile file(path);
     std::vector<Entry> entries = read_entries(file);
@@ -340,7 +364,8 @@ Result<LoadedGrid> load_nanovdb_grid(const std::string& path, const std::string&
       clear_background(loaded.blocks, loaded.background);
       warnings.push_back(background_warning(path, e.info, loaded.background));
     }
-    return finish_grid(path, std::move(loaded.blocks), e.info, loaded.map, std::move(warnings), part_of(options, 0.4f, 1.0f));
+    return finish_grid(path, std::move(loaded.blocks), e.info, loaded.map, std::move(warnings),
+                       part_of(options, 0.4f, 1.0f));
   });
 }
 

@@ -8,8 +8,7 @@ namespace brume::vdb {
 namespace {
 
 /// Calls parse(cursor) on ever longer pieces of the file from `begin` on, until it finds all it asks for.
-template <class F>
-auto parse_at(InputFile& file, std::uint64_t begin, std::uint64_t end, const F& parse) {
+template <class F> auto parse_at(InputFile& file, std::uint64_t begin, std::uint64_t end, const F& parse) {
   for (std::uint64_t piece = 64 << 10;; piece *= 8) {
     const std::vector<std::byte> data = file.read(begin, std::min(piece, end - begin));
     Cursor cursor(data);
@@ -24,7 +23,8 @@ auto parse_at(InputFile& file, std::uint64_t begin, std::uint64_t end, const F& 
 }  // namespace
 
 void refuse_damaged(const std::string& path, const std::string& grid, const Damaged& damaged) {
-  refuse(in_quotes(path) + " cannot be read" + (grid.empty() ? "" : " (grid " + in_quotes(clamped(grid)) + ")") + ": " + damaged.what);
+  refuse(in_quotes(path) + " cannot be read" + (grid.empty() ? "" : " (grid " + in_quotes(clamped(grid)) + ")") + ": " +
+         damaged.what);
 }
 
 Archive::Archive(const std::string& path) : file_(path) {
@@ -66,7 +66,8 @@ void Archive::follow_offsets(const FileHead& head, std::uint64_t at) {
       return e;
     });
     if (entry.end > file_.size())
-      throw Damaged{"it is cut off, at " + std::to_string(file_.size()) + " of at least " + std::to_string(entry.end) + " bytes"};
+      throw Damaged{"it is cut off, at " + std::to_string(file_.size()) + " of at least " + std::to_string(entry.end) +
+                    " bytes"};
     if (!entry.parent.empty()) entry.blocks = entry.end;
     if (entry.begin < behind || entry.blocks < entry.begin || entry.end < entry.blocks)
       throw Damaged{"the places of its grids make no sense"};
@@ -86,7 +87,9 @@ void Archive::walk_stream(const FileHead& head, std::uint64_t at) {
     entry.blocks = entry.end = c.position();
     if (entry.parent.empty()) {
       const auto value = value_of_tree(entry.tree);
-      if (!value) throw Damaged{"it was written as a stream, and grids of type " + clamped(entry.tree) + " in it cannot be skipped"};
+      if (!value)
+        throw Damaged{"it was written as a stream, and grids of type " + clamped(entry.tree) +
+                      " in it cannot be skipped"};
       const TreeFormat format{*value, entry.half, grid.compression};
       Tree tree = read_topology(c, format);
       entry.blocks = c.position();

@@ -44,7 +44,8 @@ bool blosc_sizes_agree(std::span<const std::byte> chunk, std::size_t unpacked) {
 
 bool decompress(bool blosc, std::span<const std::byte> chunk, std::span<std::byte> out) {
   if (blosc ? !openvdb::io::Archive::hasBloscCompression() : !openvdb::io::Archive::hasZLibCompression())
-    throw Damaged{std::string("it is compressed with ") + (blosc ? "Blosc" : "zlib") + ", which this OpenVDB was built without"};
+    throw Damaged{std::string("it is compressed with ") + (blosc ? "Blosc" : "zlib") +
+                  ", which this OpenVDB was built without"};
   if (blosc && !blosc_sizes_agree(chunk, out.size())) return false;
   MemoryBuffer buffer(chunk);
   std::istream stream(&buffer);
@@ -62,7 +63,8 @@ namespace {
 std::string type_name(const GridEntry& entry) {
   constexpr std::string_view kBefore = "Tree_", kBehind = "_5_4_3";
   const std::string& t = entry.tree;
-  if (!t.starts_with(kBefore) || !t.ends_with(kBehind) || t.size() <= kBefore.size() + kBehind.size()) return clamped(t);
+  if (!t.starts_with(kBefore) || !t.ends_with(kBehind) || t.size() <= kBefore.size() + kBehind.size())
+    return clamped(t);
   return clamped(t.substr(kBefore.size(), t.size() - kBefore.size() - kBehind.size()));
 }
 
@@ -118,7 +120,9 @@ Voxels read_voxels(Archive& file, const GridEntry& entry, GridInfo& info, const 
   set_box(tree, info);
   stop_if_cancelled(options);
   find_leaf_values(c, format, tree);
-  if (auto enough = check_memory(data.size() + tree.leaves.size() * (sizeof(LeafBlock) + BrickGrid::kBrickFloats * sizeof(float))); !enough)
+  if (auto enough = check_memory(data.size() +
+                                 tree.leaves.size() * (sizeof(LeafBlock) + BrickGrid::kBrickFloats * sizeof(float)));
+      !enough)
     throw Damaged{enough.error().message};
 
   Voxels voxels{tree.background, {}};
@@ -189,7 +193,8 @@ GridInfo list_grid(Archive& file, const GridEntry& entry, bool scan) {
   GridInfo info = describe(entry, head);
   const bool readable = info.why_not.empty();
   const bool told = box_from_metadata(head.metadata, info);
-  if (told) info.memory_bytes = *info.active_voxels / 300 * (BrickGrid::kBrickFloats * sizeof(float));  // 300: a usual filling
+  if (told)
+    info.memory_bytes = *info.active_voxels / 300 * (BrickGrid::kBrickFloats * sizeof(float));  // 300: a usual filling
   if (readable && scan) {
     const Voxels voxels = read_voxels(file, entry, info, {});
     scan_values(voxels.blocks, info);
@@ -242,10 +247,12 @@ Result<LoadedGrid> load(const std::string& path, const std::string& name, const 
   // Some programs forget the class; a distance field still shows by its background, the width of its band, and by
   // values below 0 that do not go beyond that width.
   const bool said = info.grid_class == "level set";
-  const bool looks_like_one = info.grid_class == "unknown" && voxels.background > 0 && info.min < 0 && info.min >= -1.001f * voxels.background;
+  const bool looks_like_one =
+      info.grid_class == "unknown" && voxels.background > 0 && info.min < 0 && info.min >= -1.001f * voxels.background;
   if (said || looks_like_one) {
     if (!(voxels.background > 0) || !std::isfinite(voxels.background))
-      refuse(grid_of_file + " is a level set whose background, " + std::to_string(voxels.background) + ", is not the width of a band; convert it to a fog volume first");
+      refuse(grid_of_file + " is a level set whose background, " + std::to_string(voxels.background) +
+             ", is not the width of a band; convert it to a fog volume first");
     warnings.push_back(grid_of_file + (said ? " is a level set" : " looks like a level set") +
                        " and was turned into a fog volume: 1 inside, 0 outside");
     voxels = {0, fog_from_level_set(voxels)};
@@ -254,7 +261,8 @@ Result<LoadedGrid> load(const std::string& path, const std::string& name, const 
     warnings.push_back(background_warning(path, info, voxels.background));
   }
   stop_if_cancelled(options);
-  return finish_grid(path, std::move(voxels.blocks), std::move(info), index_to_world, std::move(warnings), part_of(options, 0.6f, 1.0f));
+  return finish_grid(path, std::move(voxels.blocks), std::move(info), index_to_world, std::move(warnings),
+                     part_of(options, 0.6f, 1.0f));
 }
 
 }  // namespace
@@ -263,7 +271,8 @@ Result<LoadedGrid> load(const std::string& path, const std::string& name, const 
 namespace {
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -271,11 +280,11 @@ bool is_nanovdb(const std::string& path) { return lower(path).ends_with(".nvdb")
 
 bool names_any(const GridInfo& grid, std::initializer_list<std::string_view> words) {
   const std::string name = lower(grid.name);
-  return std::any_of(words.begin(), words.end(), [&](std::string_view word) { return name.find(word) != std::string::npos; });
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view word) { return name.find(word) != std::string::npos; });
 }
 
-template <class Test>
-std::optional<std::string> first_usable(std::span<const GridInfo> grids, const Test& test) {
+template <class Test> std::optional<std::string> first_usable(std::span<const GridInfo> grids, const Test& test) {
   for (const GridInfo& grid : grids)
     if (grid.usable && test(grid)) return grid.name;
   return std::nullopt;
@@ -300,12 +309,14 @@ Result<LoadedGrid> load_grid(const std::string& path, const std::string& grid_na
 
 std::optional<std::string> guess_density_grid(std::span<const GridInfo> grids) {
   const auto other = [](const GridInfo& g) {
-    return is_emission(g) || names_any(g, {"shadow", "temperature", "heat", "velocity", "vel", "fuel", "color", "colour"});
+    return is_emission(g) ||
+           names_any(g, {"shadow", "temperature", "heat", "velocity", "vel", "fuel", "color", "colour"});
   };
   if (auto g = first_usable(grids, [](const GridInfo& i) { return lower(i.name) == "density"; })) return g;
   if (auto g = first_usable(grids, [](const GridInfo& i) { return names_any(i, {"density"}); })) return g;
   if (auto g = first_usable(grids, [](const GridInfo& i) { return names_any(i, {"soot", "smoke"}); })) return g;
-  if (auto g = first_usable(grids, [&](const GridInfo& i) { return i.grid_class == "fog volume" && !other(i); })) return g;
+  if (auto g = first_usable(grids, [&](const GridInfo& i) { return i.grid_class == "fog volume" && !other(i); }))
+    return g;
   return first_usable(grids, [&](const GridInfo& i) { return !other(i); });
 }
 

@@ -20,16 +20,16 @@ struct GridInfo {
   std::string codec;       ///< as OpenVDB writes it: "none", "zip + active values", "blosc", ...
   bool is_half = false;    ///< real values are kept in 16 bits in the file
 
-  bool affine = true;      ///< false: a frustum, which Brume does not read
-  Vec3d voxel_size;        ///< world units: lengths of the three index axes; 0 when not affine
+  bool affine = true;  ///< false: a frustum, which Brume does not read
+  Vec3d voxel_size;    ///< world units: lengths of the three index axes; 0 when not affine
 
   std::optional<std::uint64_t> active_voxels;  ///< nothing for types that Brume does not read, unless the file tells
   VoxelIndex index_min, index_max;             ///< box of the active voxels, both inclusive; only when there are any
   Bounds3 world_bounds;                        ///< round that box, half a voxel wider on each side; empty otherwise
   std::uint64_t memory_bytes = 0;              ///< estimate of what the loaded grid takes
 
-  bool scanned = false;  ///< the four below are known
-  float min = 0, max = 0;  ///< of the finite active values, as they are in the file
+  bool scanned = false;                        ///< the four below are known
+  float min = 0, max = 0;                      ///< of the finite active values, as they are in the file
   std::uint64_t non_finite = 0, negative = 0;  ///< voxels that will be 0 instead (with inactive ones of the active box)
 
   bool usable = false;  ///< load_grid() can be expected to succeed
@@ -38,8 +38,8 @@ struct GridInfo {
 
 struct LoadedGrid {
   std::shared_ptr<const BrickGrid> grid;
-  Affined index_to_world;  ///< any invertible affine map: scaled, rotated, sheared, mirrored, offset
-  GridInfo info;           ///< scanned
+  Affined index_to_world;             ///< any invertible affine map: scaled, rotated, sheared, mirrored, offset
+  GridInfo info;                      ///< scanned
   std::vector<std::string> warnings;  ///< one sentence each: what was changed in the data, and why it may matter
 };
 

@@ -11,8 +11,7 @@ constexpr std::uint32_t kLongestString = 1 << 16;  // names and types; longer on
 constexpr std::string_view kHalfSuffix = "_HalfFloat";
 constexpr char kSeparator = '\x1e';  // between a name and its number where several grids have the name
 
-template <class T>
-std::optional<T> meta_value(const Metadata& metadata, std::string_view name, std::string_view type) {
+template <class T> std::optional<T> meta_value(const Metadata& metadata, std::string_view name, std::string_view type) {
   for (const MetaValue& m : metadata) {
     if (m.name != name || m.type != type || m.bytes.size() != sizeof(T)) continue;
     T value;
@@ -75,7 +74,8 @@ std::optional<Affined> read_map(Cursor& c) {
 }  // namespace
 
 std::span<const std::byte> Cursor::take(std::uint64_t bytes) {
-  if (position_ > data_.size() || bytes > data_.size() - position_) throw EndsEarly{{"its data end early, so it is cut off or damaged"}};
+  if (position_ > data_.size() || bytes > data_.size() - position_)
+    throw EndsEarly{{"its data end early, so it is cut off or damaged"}};
   const auto taken = data_.subspan(position_, bytes);
   position_ += bytes;
   return taken;
@@ -115,9 +115,11 @@ FileHead read_file_head(Cursor& c) {
   FileHead head;
   head.version = c.get<std::uint32_t>();
   if (head.version < kOldest)
-    throw Damaged{"its format version " + std::to_string(head.version) + " dates from before OpenVDB 2 (2013); save it again with a current program"};
+    throw Damaged{"its format version " + std::to_string(head.version) +
+                  " dates from before OpenVDB 2 (2013); save it again with a current program"};
   if (head.version > kNewest)
-    throw Damaged{"its format version " + std::to_string(head.version) + " is newer than Brume knows (" + std::to_string(kNewest) + ")"};
+    throw Damaged{"its format version " + std::to_string(head.version) + " is newer than Brume knows (" +
+                  std::to_string(kNewest) + ")"};
   c.take(8);  // version of the library that wrote it
   head.has_offsets = c.get<std::uint8_t>() != 0;
   c.take(36);  // UUID as text
@@ -140,7 +142,8 @@ GridEntry read_grid_entry(Cursor& c) {
     entry.tree.resize(entry.tree.size() - kHalfSuffix.size());
   }
   entry.name = entry.unique_name;
-  if (const auto at = entry.name.find(kSeparator); at != std::string::npos) entry.name = entry.name.substr(0, at) + "[" + entry.name.substr(at + 1) + "]";
+  if (const auto at = entry.name.find(kSeparator); at != std::string::npos)
+    entry.name = entry.name.substr(0, at) + "[" + entry.name.substr(at + 1) + "]";
   return entry;
 }
 

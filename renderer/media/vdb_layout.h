@@ -33,8 +33,7 @@ class Cursor {
 
   std::uint64_t position() const { return position_; }
   std::span<const std::byte> take(std::uint64_t bytes);
-  template <class T>
-  T get() {
+  template <class T> T get() {
     T value;
     std::memcpy(&value, take(sizeof(T)).data(), sizeof(T));
     return value;
@@ -60,11 +59,11 @@ std::optional<VoxelIndex> meta_vec3i(const Metadata& metadata, std::string_view 
 
 /// Where a grid lies in the file.
 struct GridEntry {
-  std::string unique_name;  ///< as references within the file use it
-  std::string name;         ///< for people: "density", or "density[1]" where a name occurs twice
-  std::string tree;         ///< "Tree_float_5_4_3"
-  bool half = false;        ///< real values are stored in 16 bits
-  std::string parent;       ///< unique name of the grid whose tree this one shares, or empty
+  std::string unique_name;                       ///< as references within the file use it
+  std::string name;                              ///< for people: "density", or "density[1]" where a name occurs twice
+  std::string tree;                              ///< "Tree_float_5_4_3"
+  bool half = false;                             ///< real values are stored in 16 bits
+  std::string parent;                            ///< unique name of the grid whose tree this one shares, or empty
   std::uint64_t begin = 0, blocks = 0, end = 0;  ///< offsets in the file; `blocks` begins the voxel values
 };
 

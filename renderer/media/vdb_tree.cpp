@@ -11,8 +11,7 @@ namespace brume::vdb {
 namespace {
 
 /// Bits of a node: bit n is bit n % 64 of word n / 64.
-template <int kLog2>
-struct NodeMask {
+template <int kLog2> struct NodeMask {
   static constexpr int kBits = 1 << (3 * kLog2);
   std::array<std::uint64_t, kBits / 64> words;
 
@@ -22,8 +21,7 @@ struct NodeMask {
     for (const std::uint64_t w : words) n += std::popcount(w);
     return n;
   }
-  template <class F>
-  void for_each_on(const F& f) const {
+  template <class F> void for_each_on(const F& f) const {
     for (int i = 0; i < kBits / 64; ++i)
       for (std::uint64_t w = words[static_cast<unsigned>(i)]; w; w &= w - 1) f(i * 64 + std::countr_zero(w));
   }
@@ -31,10 +29,10 @@ struct NodeMask {
 using LeafMask = NodeMask<3>;
 
 /// Origin of child or voxel n of a node whose children have 2^child_log2 voxels an edge.
-template <int kLog2>
-VoxelIndex place(VoxelIndex origin, int n, int child_log2) {
+template <int kLog2> VoxelIndex place(VoxelIndex origin, int n, int child_log2) {
   constexpr int kLow = (1 << kLog2) - 1;
-  return origin + VoxelIndex((n >> (2 * kLog2)) << child_log2, (n >> kLog2 & kLow) << child_log2, (n & kLow) << child_log2);
+  return origin +
+         VoxelIndex((n >> (2 * kLog2)) << child_log2, (n >> kLog2 & kLow) << child_log2, (n & kLow) << child_log2);
 }
 
 /// IEEE 754 binary16 to binary32, exact.
@@ -54,25 +52,32 @@ struct ValueLayout {
   unsigned bytes, half_bytes;  // half_bytes: per value where 16-bit storage is on
 };
 constexpr ValueLayout kValues[] = {
-    {"float", Value::Float, 4, 2},   {"double", Value::Double, 8, 2}, {"int32", Value::Int32, 4, 4},
-    {"int64", Value::Int64, 8, 8},   {"bool", Value::Bool, 1, 1},     {"mask", Value::Mask, 1, 1},
-    {"vec3s", Value::Vec3s, 12, 6},  {"vec3d", Value::Vec3d, 24, 6},  {"vec3i", Value::Vec3i, 12, 12},
+    {"float", Value::Float, 4, 2},  {"double", Value::Double, 8, 2}, {"int32", Value::Int32, 4, 4},
+    {"int64", Value::Int64, 8, 8},  {"bool", Value::Bool, 1, 1},     {"mask", Value::Mask, 1, 1},
+    {"vec3s", Value::Vec3s, 12, 6}, {"vec3d", Value::Vec3d, 24, 6},  {"vec3i", Value::Vec3i, 12, 12},
 };
 const ValueLayout& layout(Value value) {
-  return *std::find_if(std::begin(kValues), std::end(kValues), [value](const ValueLayout& l) { return l.value == value; });
+  return *std::find_if(std::begin(kValues), std::end(kValues),
+                       [value](const ValueLayout& l) { return l.value == value; });
 }
 
 /// Vectors count as 0: they are walked over, never used.
 float to_float(Value value, const std::byte* p) {
   const auto as = [p]<class T>(T v) { return std::memcpy(&v, p, sizeof v), static_cast<float>(v); };
   switch (value) {
-    case Value::Float: return as(0.0f);
-    case Value::Double: return as(0.0);
-    case Value::Int32: return as(std::int32_t{});
-    case Value::Int64: return as(std::int64_t{});
+    case Value::Float:
+      return as(0.0f);
+    case Value::Double:
+      return as(0.0);
+    case Value::Int32:
+      return as(std::int32_t{});
+    case Value::Int64:
+      return as(std::int64_t{});
     case Value::Bool:
-    case Value::Mask: return *p != std::byte{0} ? 1.0f : 0.0f;
-    default: return 0;
+    case Value::Mask:
+      return *p != std::byte{0} ? 1.0f : 0.0f;
+    default:
+      return 0;
   }
 }
 
@@ -80,16 +85,21 @@ float negated(Value value, float v) { return value == Value::Bool || value == Va
 
 /// How a node's inactive values are kept (openvdb/io/Compression.h).
 enum NodeCode : std::int8_t {
-  kBackground = 0, kMinusBackground, kOneValue, kSelectMinusOrPlus, kSelectOneOrBackground, kSelectTwo, kAllValues
+  kBackground = 0,
+  kMinusBackground,
+  kOneValue,
+  kSelectMinusOrPlus,
+  kSelectOneOrBackground,
+  kSelectTwo,
+  kAllValues
 };
 
 /// The values of one node, found but not decoded.
-template <int kLog2>
-struct NodeValues {
-  float inactive[2] = {};                  // which one is told by `select`
+template <int kLog2> struct NodeValues {
+  float inactive[2] = {};  // which one is told by `select`
   std::optional<NodeMask<kLog2>> select;
-  int stored = 0;                          // values in the chunk: all of them, or the active ones
-  std::span<const std::byte> chunk;        // compressed: with its 8-byte length
+  int stored = 0;                    // values in the chunk: all of them, or the active ones
+  std::span<const std::byte> chunk;  // compressed: with its 8-byte length
   bool compressed = false;
 };
 
@@ -188,9 +198,7 @@ class TopologyReader {
   }
 
  private:
-  static bool before(VoxelIndex a, VoxelIndex b) {
-    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-  }
+  static bool before(VoxelIndex a, VoxelIndex b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
 
   VoxelIndex root_place() {
     const auto x = c_.get<std::int32_t>(), y = c_.get<std::int32_t>(), z = c_.get<std::int32_t>();
@@ -199,8 +207,7 @@ class TopologyReader {
   }
 
   /// An internal node with 2^kLog2 children an edge, each of 2^kChildLog2 voxels an edge.
-  template <int kLog2, int kChildLog2>
-  void node(VoxelIndex origin) {
+  template <int kLog2, int kChildLog2> void node(VoxelIndex origin) {
     using Mask = NodeMask<kLog2>;
     const auto children = c_.get<Mask>(), active = c_.get<Mask>();
     const NodeValues<kLog2> found = find_values(c_, format_, active, tree_.background);
@@ -210,7 +217,9 @@ class TopologyReader {
       std::vector<float> values(Mask::kBits);
       decode(found, format_, active, values.data());
       for (int n = 0; n < Mask::kBits; ++n)
-        if (!children.on(n)) add_tile(place<kLog2>(origin, n, kChildLog2), 1 << kChildLog2, values[static_cast<unsigned>(n)], active.on(n));
+        if (!children.on(n))
+          add_tile(place<kLog2>(origin, n, kChildLog2), 1 << kChildLog2, values[static_cast<unsigned>(n)],
+                   active.on(n));
     }
     children.for_each_on([&](int n) {
       const VoxelIndex child = place<kLog2>(origin, n, kChildLog2);
@@ -230,7 +239,9 @@ class TopologyReader {
       for (int axis = 0; axis < 3; ++axis)
         low[axis] = std::min(low[axis], local[axis]), high[axis] = std::max(high[axis], local[axis]);
     });
-    if (high[0] >= 0) add_active(origin + VoxelIndex(low[0], low[1], low[2]), origin + VoxelIndex(high[0], high[1], high[2]), static_cast<std::uint64_t>(active.count()));
+    if (high[0] >= 0)
+      add_active(origin + VoxelIndex(low[0], low[1], low[2]), origin + VoxelIndex(high[0], high[1], high[2]),
+                 static_cast<std::uint64_t>(active.count()));
   }
 
   void add_tile(VoxelIndex origin, int size, float value, bool active) {
@@ -280,7 +291,8 @@ void find_leaf_values(Cursor& c, const TreeFormat& format, Tree& tree) {
   }
 }
 
-void read_leaf(std::span<const std::byte> data, const TreeFormat& format, const Tree& tree, const LeafPlace& place, LeafBlock& leaf) {
+void read_leaf(std::span<const std::byte> data, const TreeFormat& format, const Tree& tree, const LeafPlace& place,
+               LeafBlock& leaf) {
   Cursor c(data, place.begin);
   const auto active = c.get<LeafMask>();
   leaf.origin = place.origin;

@@ -123,11 +123,8 @@ std::optional<std::size_t> component_count(ParamType type) {
   }
 }
 
-/// Beyond this the float arithmetic of the transport would overflow in a square or two.
-constexpr double kLargestNumber = 1e15;
-
 bool in_range(const Param& p, double v) {
-  return std::abs(v) <= kLargestNumber && v <= p.high && (p.low_open ? v > p.low : v >= p.low);
+  return std::isfinite(v) && v <= p.high && (p.low_open ? v > p.low : v >= p.low);
 }
 
 /// Right type and range, once "auto" is dealt with.

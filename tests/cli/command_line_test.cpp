@@ -19,7 +19,8 @@ TEST_F(CommandLine, HelpNamesEveryCommandAndExits0) {
 
 TEST_F(CommandLine, HelpOfEachCommandListsItsFlags) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> flags{
-      {"render", {"--output", "--spp", "--time", "--size", "--threads", "--seed", "--set", "--stats", "default 16", "seconds"}},
+      {"render",
+       {"--output", "--spp", "--time", "--size", "--threads", "--seed", "--set", "--stats", "default 16", "seconds"}},
       {"probe", {"--ray", "--tmin", "--tmax", "--samples", "--seed", "--set", "independent", "world units"}},
       {"snapshot", {"--output", "--size", "--spp", "--set", "1400"}},
       {"info", {"--json"}},
@@ -51,7 +52,9 @@ TEST_F(CommandLine, UsageErrorsPointAtTheHelp) {
   expect_refused({"render", "scene.json"}, "see brume render --help");
   expect_refused({"probe", "scene.json"}, "see brume probe --help");
   expect_refused({"render", "scene.json", "-o", "a.png", "surplus"}, "\"surplus\"");
-  expect_refused({"render", "scene.json", "-o", "a.png", "--spp"}, "--spp");
+  expect_refused({"render", "scene.json", "-o", "a.png", "--spp"}, "--spp: expected one value; see ");
+  expect_refused({"render", "scene.json", "-o", "a.png", "--spp", "2", "--spp", "3"},
+                 "--spp: expected one value; see ");
   expect_refused({"probe", "scene.json", "--set"}, "--set");
   expect_refused({"schema", "surplus"}, "\"surplus\"");
 }
@@ -115,8 +118,8 @@ TEST_F(SettingTest, ErrorsNameTheFlagTheKeyAndTheValidWords) {
 }
 
 TEST_F(SettingTest, LaterOnesWinAndShorthandsWinOverAll) {
-  const Outcome o = run({"render", "scene.json", "-o", "a.png", "--spp", "1", "--size", "8x6", "--set", "film.resolution=9,7",
-                         "--set", "render.bounces=2", "--set", "render.bounces=3"});
+  const Outcome o = run({"render", "scene.json", "-o", "a.png", "--spp", "1", "--size", "8x6", "--set",
+                         "film.resolution=9,7", "--set", "render.bounces=2", "--set", "render.bounces=3"});
   ASSERT_EQ(o.exit_code, 0) << o.err;
   const auto description = nlohmann::json::parse(run({"info", "a.png", "--json"}).out)["description"];
   EXPECT_EQ(description["render"]["bounces"], 3);
@@ -125,7 +128,8 @@ TEST_F(SettingTest, LaterOnesWinAndShorthandsWinOverAll) {
 
 TEST_F(SettingTest, RelativeFilesAreMeantFromTheCurrentFolder) {
   std::filesystem::create_directory(path("scenes"));
-  put_file(path("scenes/smoke.json"), R"({"brume": 1, "volumes": [{"name": "a", "shader": "vdb", "file": "other.vdb"}]})");
+  put_file(path("scenes/smoke.json"),
+           R"({"brume": 1, "volumes": [{"name": "a", "shader": "vdb", "file": "other.vdb"}]})");
   std::filesystem::copy(BRUME_SOURCE_DIR "/scenes/vdb/smoke_plume_96_f050.vdb", path("smoke.vdb"));
   const std::vector<std::string> probe{"probe", "scenes/smoke.json", "--ray=1,-3,1,0,1,0", "--samples", "2"};
   expect_refused(probe, "scenes/other.vdb");

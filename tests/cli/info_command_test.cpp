@@ -47,7 +47,8 @@ TEST_F(InfoCommand, ListsTheGridsOfAFile) {
 TEST_F(InfoCommand, TheTableNamesEveryGrid) {
   const Outcome o = run({"info", kSmoke});
   ASSERT_EQ(o.exit_code, 0) << o.err;
-  for (const char* word : {"density", "flame", "shadow", "temperature", "velocity", "voxel size", "range", "memory", "not usable: "})
+  for (const char* word :
+       {"density", "flame", "shadow", "temperature", "velocity", "voxel size", "range", "memory", "not usable: "})
     EXPECT_NE(o.out.find(word), std::string::npos) << word;
 }
 
@@ -68,7 +69,8 @@ TEST_F(InfoCommand, TellsWhatASceneHolds) {
 
 TEST_F(InfoCommand, BrokenFilesAreRefused) {
   const std::string smoke = content_of(kSmoke);
-  for (const std::size_t length : {std::size_t{0}, std::size_t{4}, std::size_t{300}, smoke.size() / 2, smoke.size() - 10}) {
+  for (const std::size_t length :
+       {std::size_t{0}, std::size_t{4}, std::size_t{300}, smoke.size() / 2, smoke.size() - 10}) {
     put_file(path("cut.vdb"), smoke.substr(0, length));
     expect_refused({"info", "cut.vdb"}, "cut.vdb");
     expect_refused({"info", "cut.vdb", "--json"}, "cut.vdb");

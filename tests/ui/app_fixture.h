@@ -57,7 +57,7 @@ class AppFixture : public testing::Test {
     if (!session_->scene()) return true;  // nothing to render, or nothing that can be
     if (!session_->problem().empty()) return true;
     const auto picture = session_->picture();
-    return picture && picture->generation == session_->scene()->generation &&
+    return session_->up_to_date() &&
            (picture->finished || (samples_ == kEndless && picture->divisor == 1));
   }
 

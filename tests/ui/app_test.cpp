@@ -9,7 +9,11 @@
 namespace brume {
 namespace {
 
-using App = AppFixture;
+class App : public AppFixture {
+ protected:
+  // A small window: these tests look at what happens, not at how it looks.
+  void start(const std::string& scene, int samples = 2) { AppFixture::start(scene, samples, 1000, 620); }
+};
 
 std::string scratch(const std::string& name) { return std::string(BRUME_TEST_OUTPUT_DIR) + "/" + name; }
 
@@ -64,9 +68,10 @@ TEST_F(App, MoreBouncesMakeTheSmokeBrighter) {
 
 TEST_F(App, TypedValueBeyondTheHardRangeIsBroughtBackIntoIt) {
   start(scene_path("smoke.json"), 1);
-  ASSERT_TRUE(done(robot().type_into("Inspector/Light samples", "100000")));
+  ASSERT_TRUE(done(robot().click("Scene/Camera")));
+  ASSERT_TRUE(done(robot().type_into("Inspector/Field of view", "500")));
   settle();
-  EXPECT_EQ(render().integer("light_samples"), 256);
+  EXPECT_DOUBLE_EQ(camera().number("vfov_deg"), 179);
 }
 
 TEST_F(App, ResetButtonBringsTheDefaultBack) {
@@ -297,9 +302,14 @@ TEST_F(App, PauseKeepsTheSamplesAndGoesOn) {
   start(scene_path("fog.json"), kEndless);
   robot().press_key(ui::Key::Space);
   EXPECT_TRUE(session().paused());
-  std::this_thread::sleep_for(std::chrono::milliseconds(400));  // the pass under way ends
-  const auto held = session().picture();
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  // The pass under way ends first, which takes as long as the machine is busy.
+  auto held = session().picture();
+  for (int i = 0; i < 60; ++i) {
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    if (session().picture() == held) break;
+    held = session().picture();
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
   EXPECT_EQ(session().picture(), held);
   robot().press_key(ui::Key::Space);
   for (int i = 0; i < 2000 && session().picture() == held; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -312,7 +322,7 @@ TEST_F(App, TabLeavesThePictureAlone) {
   robot().press_key(ui::Key::Tab);
   settle();
   EXPECT_FALSE(robot().exists("Inspector/Bounces"));
-  EXPECT_GT(session().picture()->width, 900);
+  EXPECT_GT(session().picture()->width, 700);
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ TEST_F(Simd, EachLevelCanBeForcedAndTheListStaysWhole) {
 TEST_F(Simd, NamesAreReadInAnyCaseAndByTheirUsualAliases) {
   const auto all = simd_levels();
   std::string upper = all.front();
-  std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(upper.begin(), upper.end(), upper.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   EXPECT_TRUE(force_simd_level(upper).ok());
   EXPECT_TRUE(force_simd_level("sse2").ok());
   EXPECT_EQ(simd_level(), all.back());

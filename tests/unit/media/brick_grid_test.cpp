@@ -41,7 +41,9 @@ void expect_equals_openvdb(const openvdb::FloatGrid& reference) {
   }
 }
 
-TEST(BrickGrid, HoldsTheVoxelsOfTheSmokeGrid) { expect_equals_openvdb(*test::read_with_openvdb(test::kSmoke, "density")); }
+TEST(BrickGrid, HoldsTheVoxelsOfTheSmokeGrid) {
+  expect_equals_openvdb(*test::read_with_openvdb(test::kSmoke, "density"));
+}
 
 TEST(BrickGrid, HoldsTheVoxelsAndTilesOfARandomGrid) {
   for (unsigned seed = 0; seed < 3; ++seed) expect_equals_openvdb(*test::random_grid(seed));
@@ -121,13 +123,13 @@ TEST(BrickGrid, InactiveValuesCountInsideTheActiveBoxOnly) {
   far.active[0] = 1;  // voxel (32,32,32)
   blocks.leaves.push_back(corner);
   blocks.leaves.push_back(far);
-  blocks.tiles.push_back({{0, 0, 8}, 8, 2, false});   // cut by the box
-  blocks.tiles.push_back({{8, 8, 8}, 8, 4, false});   // inside it
+  blocks.tiles.push_back({{0, 0, 8}, 8, 2, false});  // cut by the box
+  blocks.tiles.push_back({{8, 8, 8}, 8, 4, false});  // inside it
   const BrickGrid grid = build(std::move(blocks));
   EXPECT_EQ(grid.active_voxels(), 2u);
   EXPECT_EQ(grid.voxel({4, 4, 4}), 3);
-  EXPECT_EQ(grid.voxel({7, 7, 7}), 3);   // inactive, inside
-  EXPECT_EQ(grid.voxel({3, 7, 7}), 0);   // inactive, outside
+  EXPECT_EQ(grid.voxel({7, 7, 7}), 3);  // inactive, inside
+  EXPECT_EQ(grid.voxel({3, 7, 7}), 0);  // inactive, outside
   EXPECT_EQ(grid.voxel({32, 32, 32}), 7);
   EXPECT_EQ(grid.voxel({33, 32, 32}), 0);
   EXPECT_EQ(grid.voxel({4, 4, 8}), 2);

@@ -70,8 +70,9 @@ class BrickLookup : public testing::TestWithParam<std::string> {
     const auto accessor = reference.getConstAccessor();
     // A position is rounded once more when it is taken relative to the table (half an ulp of its extent, the values
     // change by at most max_value a voxel along each of three axes); the lerps add some ulps of the largest value.
-    const double size = std::max({std::abs(support.low.x), std::abs(support.low.y), std::abs(support.low.z), support.extent().x,
-                                  support.extent().y, support.extent().z}) + 16;
+    const double size = std::max({std::abs(support.low.x), std::abs(support.low.y), std::abs(support.low.z),
+                                  support.extent().x, support.extent().y, support.extent().z}) +
+                        16;
     const double tolerance = grid.max_value() * kEps * (4 + 3 * size);
     int inside = 0;
     for (int i = 0; i < points.n; ++i) {
@@ -93,7 +94,8 @@ TEST_P(BrickLookup, EqualsBoxSamplerOnARandomSparseGrid) {
 }
 
 TEST_P(BrickLookup, EqualsBoxSamplerOnOneVoxel) {
-  for (const openvdb::Coord at : {openvdb::Coord(0), openvdb::Coord(7), openvdb::Coord(8), openvdb::Coord(-1), openvdb::Coord(-1000, 3, 77)}) {
+  for (const openvdb::Coord at :
+       {openvdb::Coord(0), openvdb::Coord(7), openvdb::Coord(8), openvdb::Coord(-1), openvdb::Coord(-1000, 3, 77)}) {
     auto grid = openvdb::FloatGrid::create(0.0f);
     grid->tree().setValue(at, 1.0f);
     expect_equals_box_sampler(*grid, 4000);
@@ -104,7 +106,8 @@ TEST_P(BrickLookup, EqualsBoxSamplerOnOneLeaf) {
   auto grid = openvdb::FloatGrid::create(0.0f);
   std::mt19937 rng(2);
   std::uniform_real_distribution<float> u(0, 1);
-  for (auto at = openvdb::CoordBBox(openvdb::Coord(-16, 8, 0), openvdb::Coord(-9, 15, 7)).begin(); at; ++at) grid->tree().setValue(*at, u(rng));
+  for (auto at = openvdb::CoordBBox(openvdb::Coord(-16, 8, 0), openvdb::Coord(-9, 15, 7)).begin(); at; ++at)
+    grid->tree().setValue(*at, u(rng));
   expect_equals_box_sampler(*grid);
 }
 
@@ -122,11 +125,13 @@ TEST_P(BrickLookup, GivesTheVoxelItselfOnVoxelPlanes) {
   Points points;
   for (int x = -56; x <= 56; x += 3)
     for (int y = -56; y <= 56; y += 2)
-      for (int z = -56; z <= 56; ++z) points.add(Vec3(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)));
+      for (int z = -56; z <= 56; ++z)
+        points.add(Vec3(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)));
   const auto found = look_up(grid, points);
   for (int i = 0; i < points.n; ++i) {
     const Vec3 p = points[i];
-    ASSERT_EQ(found[static_cast<std::size_t>(i)], grid.voxel({static_cast<int>(p.x), static_cast<int>(p.y), static_cast<int>(p.z)}));
+    ASSERT_EQ(found[static_cast<std::size_t>(i)],
+              grid.voxel({static_cast<int>(p.x), static_cast<int>(p.y), static_cast<int>(p.z)}));
   }
 }
 
@@ -134,8 +139,22 @@ TEST_P(BrickLookup, IsZeroOutsideAndForWhatIsNotANumber) {
   const BrickGrid grid = bricks_of(*test::read_with_openvdb(test::kSmoke, "density"));
   const Vec3 centre(grid.support().center());
   ASSERT_GT(grid.voxel(VoxelIndex(centre)), 0);
-  const float far[] = {kNan, -kNan, kInf, -kInf, 1e30f, -1e30f, 3e9f, -3e9f, 2147483648.0f, -2147483648.0f, 8388608.0f,
-                       -8388608.0f, 1e5f, -1e5f, std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
+  const float far[] = {kNan,
+                       -kNan,
+                       kInf,
+                       -kInf,
+                       1e30f,
+                       -1e30f,
+                       3e9f,
+                       -3e9f,
+                       2147483648.0f,
+                       -2147483648.0f,
+                       8388608.0f,
+                       -8388608.0f,
+                       1e5f,
+                       -1e5f,
+                       std::numeric_limits<float>::max(),
+                       std::numeric_limits<float>::lowest()};
   Points points;
   for (const float f : far)
     for (int axes = 1; axes < 8; ++axes) {
@@ -177,7 +196,8 @@ TEST_P(BrickLookup, DoesNotDependOnHowABatchIsSplit) {
   Points points;
   for (int i = 0; i < 1000; ++i) {
     Vec3 p;
-    for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(support.low[axis] + u(rng) * support.extent()[axis]);
+    for (int axis = 0; axis < 3; ++axis)
+      p[axis] = static_cast<float>(support.low[axis] + u(rng) * support.extent()[axis]);
     points.add(p);
   }
   Affine map;
@@ -234,7 +254,8 @@ TEST_P(BrickLookup, KeepsItsFractionFarFromTheOriginOfIndexSpace) {
   const auto grid_at = [](int offset) {
     auto grid = openvdb::FloatGrid::create(0.0f);
     for (auto at = openvdb::CoordBBox(openvdb::Coord(0), openvdb::Coord(7)).begin(); at; ++at)
-      grid->tree().setValue((*at).offsetBy(offset), static_cast<float>(((*at).x() * 5 + (*at).y() * 3 + (*at).z()) % 7));
+      grid->tree().setValue((*at).offsetBy(offset),
+                            static_cast<float>(((*at).x() * 5 + (*at).y() * 3 + (*at).z()) % 7));
     return bricks_of(*grid);
   };
   const BrickGrid near = grid_at(0), far = grid_at(kFar);

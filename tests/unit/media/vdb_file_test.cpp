@@ -106,20 +106,22 @@ void expect_table(const std::string& path, double voxel_size, const std::vector<
 
 TEST(VdbInfo, SmokeFileMatchesItsTable) {
   const Vec3d low(0.2005, 0.0182, 0.0182), high(1.9505, 1.8047, 3.1536);
-  expect_table(test::kSmoke, 0.0364583,
-               {{"density", 70422, {6, 1, 1}, {53, 49, 86}, low, high, 0.0010, 0.811},
-                {"temperature", 70302, {6, 1, 1}, {53, 49, 86}, low, high, 0.0010, 1.0},
-                {"flame", 0, {}, {}, {}, {}, 0, 0},
-                {"shadow", 290400, {0, 0, 0}, {54, 54, 95}, {-0.0182, -0.0182, -0.0182}, {1.9870, 1.9870, 3.4818}, -1, -1}});
+  expect_table(
+      test::kSmoke, 0.0364583,
+      {{"density", 70422, {6, 1, 1}, {53, 49, 86}, low, high, 0.0010, 0.811},
+       {"temperature", 70302, {6, 1, 1}, {53, 49, 86}, low, high, 0.0010, 1.0},
+       {"flame", 0, {}, {}, {}, {}, 0, 0},
+       {"shadow", 290400, {0, 0, 0}, {54, 54, 95}, {-0.0182, -0.0182, -0.0182}, {1.9870, 1.9870, 3.4818}, -1, -1}});
 }
 
 TEST(VdbInfo, FireFileMatchesItsTable) {
   const Vec3d low(0.3719, 0.0219, 0.0219), high(1.9469, 1.8156, 3.0406);
-  expect_table(test::kFire, 0.04375,
-               {{"density", 38498, {9, 1, 1}, {44, 41, 69}, low, high, 0.0010, 0.0678},
-                {"flame", 7141, {10, 6, 1}, {35, 30, 39}, {0.4156, 0.2406, 0.0219}, {1.5531, 1.3344, 1.7281}, 0.0010, 0.966},
-                {"temperature", 38497, {9, 1, 1}, {44, 41, 69}, low, high, 0.0016, 2.949},
-                {"shadow", 169280, {0, 0, 0}, {45, 45, 79}, {-0.0219, -0.0219, -0.0219}, {1.9906, 1.9906, 3.4781}, -1, -1}});
+  expect_table(
+      test::kFire, 0.04375,
+      {{"density", 38498, {9, 1, 1}, {44, 41, 69}, low, high, 0.0010, 0.0678},
+       {"flame", 7141, {10, 6, 1}, {35, 30, 39}, {0.4156, 0.2406, 0.0219}, {1.5531, 1.3344, 1.7281}, 0.0010, 0.966},
+       {"temperature", 38497, {9, 1, 1}, {44, 41, 69}, low, high, 0.0016, 2.949},
+       {"shadow", 169280, {0, 0, 0}, {45, 45, 79}, {-0.0219, -0.0219, -0.0219}, {1.9906, 1.9906, 3.4781}, -1, -1}});
 }
 
 TEST(VdbInfo, TellsHalfAndCodec) {
@@ -162,7 +164,9 @@ TEST(VdbInfo, GuessesTheGridsToUse) {
   EXPECT_EQ(guess_density_grid(Infos{}), std::nullopt);
   EXPECT_EQ(guess_density_grid(Infos{info("temperature", "fog volume"), info("Density", "unknown")}), "Density");
   EXPECT_EQ(guess_density_grid(Infos{info("cloud", "fog volume"), info("soot", "fog volume")}), "soot");
-  EXPECT_EQ(guess_density_grid(Infos{info("shadow", "fog volume"), info("noise", "unknown"), info("cloud", "fog volume")}), "cloud");
+  EXPECT_EQ(
+      guess_density_grid(Infos{info("shadow", "fog volume"), info("noise", "unknown"), info("cloud", "fog volume")}),
+      "cloud");
   EXPECT_EQ(guess_density_grid(Infos{info("heat", "unknown"), info("noise", "unknown")}), "noise");
   EXPECT_EQ(guess_density_grid(Infos{info("density", "fog volume", false), info("smoke", "fog volume")}), "smoke");
   EXPECT_EQ(guess_density_grid(Infos{info("shadow", "fog volume"), info("temperature", "fog volume")}), std::nullopt);
@@ -173,8 +177,7 @@ TEST(VdbInfo, GuessesTheGridsToUse) {
 // ---- Values ---------------------------------------------------------------------------------------------------------
 
 /// Compares with what OpenVDB itself reads from the file: every voxel of the active box and around.
-template <class GridT>
-void expect_equals_openvdb(const std::string& path, const std::string& name = "density") {
+template <class GridT> void expect_equals_openvdb(const std::string& path, const std::string& name = "density") {
   openvdb::io::File file(path);
   file.open(false);
   const auto reference = openvdb::gridPtrCast<GridT>(file.readGrid(name));
@@ -199,8 +202,7 @@ void expect_equals_openvdb(const std::string& path, const std::string& name = "d
 }
 
 /// A grid with voxels, tiles and all kinds of inactive values round `background`.
-template <class GridT>
-typename GridT::Ptr mixed_grid(double background, double scale, int kinds_of_inactive) {
+template <class GridT> typename GridT::Ptr mixed_grid(double background, double scale, int kinds_of_inactive) {
   using Value = typename GridT::ValueType;
   const auto value = [](double v) {
     if constexpr (std::is_same_v<Value, bool>)
@@ -218,23 +220,25 @@ typename GridT::Ptr mixed_grid(double background, double scale, int kinds_of_ina
   for (int i = 0; i < 400; ++i) {
     const openvdb::Coord at(place(rng), place(rng), place(rng));
     accessor.setValue(at, value(u(rng)));
-    for (int k = 0; k < kinds_of_inactive; ++k) accessor.setValueOff(at.offsetBy(near(rng), near(rng), near(rng)), value(scale * k));
+    for (int k = 0; k < kinds_of_inactive; ++k)
+      accessor.setValueOff(at.offsetBy(near(rng), near(rng), near(rng)), value(scale * k));
   }
   grid->setName("density");
   return grid;
 }
 
-template <class GridT>
-void expect_all_ways_of_storing(double background, double scale) {
-  const std::uint32_t ways[] = {openvdb::io::COMPRESS_NONE, openvdb::io::COMPRESS_ACTIVE_MASK,
-                                openvdb::io::COMPRESS_ZIP, openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK,
-                                openvdb::io::COMPRESS_BLOSC, openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK};
+template <class GridT> void expect_all_ways_of_storing(double background, double scale) {
+  const std::uint32_t ways[] = {
+      openvdb::io::COMPRESS_NONE,  openvdb::io::COMPRESS_ACTIVE_MASK,
+      openvdb::io::COMPRESS_ZIP,   openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK,
+      openvdb::io::COMPRESS_BLOSC, openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK};
   for (const std::uint32_t way : ways)
     for (const bool half : {false, true})
       for (const int inactive : {0, 1, 2, 4}) {
         const auto grid = mixed_grid<GridT>(background, scale, inactive);
         grid->setSaveFloatAsHalf(half);
-        SCOPED_TRACE(grid->type() + " way " + std::to_string(way) + " half " + std::to_string(half) + " inactive " + std::to_string(inactive));
+        SCOPED_TRACE(grid->type() + " way " + std::to_string(way) + " half " + std::to_string(half) + " inactive " +
+                     std::to_string(inactive));
         const std::string path = test::write_vdb("ways.vdb", {grid}, way, inactive % 2 == 0);
         expect_equals_openvdb<GridT>(path);
       }
@@ -242,8 +246,10 @@ void expect_all_ways_of_storing(double background, double scale) {
 
 TEST(VdbValues, OfTheRealFilesEqualOpenVdb) {
   openvdb::initialize();
-  for (const char* name : {"density", "temperature", "shadow"}) expect_equals_openvdb<openvdb::FloatGrid>(test::kSmoke, name);
-  for (const char* name : {"density", "temperature", "flame"}) expect_equals_openvdb<openvdb::FloatGrid>(test::kFire, name);
+  for (const char* name : {"density", "temperature", "shadow"})
+    expect_equals_openvdb<openvdb::FloatGrid>(test::kSmoke, name);
+  for (const char* name : {"density", "temperature", "flame"})
+    expect_equals_openvdb<openvdb::FloatGrid>(test::kFire, name);
 }
 
 TEST(VdbValues, FloatInAllWaysOfStoring) { expect_all_ways_of_storing<openvdb::FloatGrid>(0, 2); }
@@ -344,9 +350,9 @@ TEST(VdbValues, LevelSetBecomesFog) {
     const LoadedGrid found = loaded(test::write_vdb("ball.vdb", {sphere}), "ball");
     ASSERT_TRUE(found.grid);
     EXPECT_TRUE(contains(joined(found.warnings), "level set")) << joined(found.warnings);
-    EXPECT_EQ(found.grid->voxel({3, 0, 0}), 1);     // deep inside: a tile or a leaf
+    EXPECT_EQ(found.grid->voxel({3, 0, 0}), 1);  // deep inside: a tile or a leaf
     EXPECT_EQ(found.grid->voxel({3, 12, 0}), 1);
-    EXPECT_EQ(found.grid->voxel({24, 0, 0}), 0);    // outside
+    EXPECT_EQ(found.grid->voxel({24, 0, 0}), 0);  // outside
     EXPECT_EQ(found.grid->max_value(), 1);
     // The fog falls from 1 to 0 across the inner half of the band, three voxels.
     double volume = 0;
@@ -410,8 +416,10 @@ TEST(VdbFile, AnyAffineTransformIsRead) {
   transforms.push_back(Transform::createLinearTransform(openvdb::Mat4d::identity()));
   transforms.emplace_back(new Transform(openvdb::math::MapBase::Ptr(new openvdb::math::ScaleMap({0.1, 0.2, -0.3}))));
   transforms.emplace_back(new Transform(openvdb::math::MapBase::Ptr(new openvdb::math::TranslationMap({4, 5, 6}))));
-  transforms.emplace_back(new Transform(openvdb::math::MapBase::Ptr(new openvdb::math::ScaleTranslateMap({0.1, 0.2, 0.3}, {1, 2, 3}))));
-  transforms.emplace_back(new Transform(openvdb::math::MapBase::Ptr(new openvdb::math::UniformScaleTranslateMap(0.1, {1, 2, 3}))));
+  transforms.emplace_back(
+      new Transform(openvdb::math::MapBase::Ptr(new openvdb::math::ScaleTranslateMap({0.1, 0.2, 0.3}, {1, 2, 3}))));
+  transforms.emplace_back(
+      new Transform(openvdb::math::MapBase::Ptr(new openvdb::math::UniformScaleTranslateMap(0.1, {1, 2, 3}))));
   transforms.emplace_back(new Transform(openvdb::math::MapBase::Ptr(new openvdb::math::UnitaryMap({1, 2, 3}, 0.7))));
   auto general = Transform::createLinearTransform(0.2);
   general->postRotate(0.4, openvdb::math::X_AXIS);
@@ -428,7 +436,8 @@ TEST(VdbFile, AnyAffineTransformIsRead) {
     for (const openvdb::Vec3d p : {openvdb::Vec3d(0, 0, 0), openvdb::Vec3d(10, -20, 30), openvdb::Vec3d(-7.5, 1, 2)}) {
       const openvdb::Vec3d expected = transform->indexToWorld(p);
       const Vec3d world = found.index_to_world.point({p.x(), p.y(), p.z()});
-      for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(world[axis], expected[axis], 1e-9 * (1 + std::abs(expected[axis])));
+      for (int axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(world[axis], expected[axis], 1e-9 * (1 + std::abs(expected[axis])));
     }
     for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(found.info.voxel_size[axis], transform->voxelSize()[axis], 1e-9);
   }
@@ -437,7 +446,8 @@ TEST(VdbFile, AnyAffineTransformIsRead) {
 TEST(VdbFile, FrustumIsRefusedClearly) {
   auto frustum = test::random_grid(10);
   frustum->setName("camera");
-  frustum->setTransform(openvdb::math::Transform::createFrustumTransform(openvdb::BBoxd({0, 0, 0}, {100, 100, 50}), 0.5, 10, 0.1));
+  frustum->setTransform(
+      openvdb::math::Transform::createFrustumTransform(openvdb::BBoxd({0, 0, 0}, {100, 100, 50}), 0.5, 10, 0.1));
   const std::string path = test::write_vdb("frustum.vdb", {frustum, test::random_grid(11)});
   EXPECT_FALSE(find(listed(path), "camera").affine);
   const std::string why = refusal(path, "camera");
@@ -467,7 +477,8 @@ TEST(VdbFile, TypesThatAreNoDensityAreRefusedWithTheUsableOnesListed) {
   std::decay_t<decltype(*custom)>::registerGrid();
   const std::string path = test::write_vdb("types.vdb", {vector, integers, custom, test::random_grid(13)});
   using Case = std::pair<const char*, const char*>;
-  for (const auto& [name, word] : {Case("velocity", "vec3s"), Case("label", "vec3i"), Case("big_leaves", "unusual tree")}) {
+  for (const auto& [name, word] :
+       {Case("velocity", "vec3s"), Case("label", "vec3i"), Case("big_leaves", "unusual tree")}) {
     const std::string why = refusal(path, name);
     EXPECT_TRUE(contains(why, word) && contains(why, "usable grids: density")) << why;
     EXPECT_FALSE(find(listed(path, true), name).usable);
@@ -514,7 +525,10 @@ TEST(VdbFile, ProgressGrowsToOneAndCancellingStops) {
 
   for (const float when : {0.0f, 0.4f, 0.7f}) {
     std::stop_source later;
-    options = {[&](float p) { if (p >= when) later.request_stop(); }, later.get_token()};
+    options = {[&](float p) {
+                 if (p >= when) later.request_stop();
+               },
+               later.get_token()};
     const auto cancelled = load_grid(test::kSmoke, "density", options);
     ASSERT_FALSE(cancelled.ok());
     EXPECT_EQ(cancelled.error().code, ErrorCode::Cancelled);
@@ -522,7 +536,8 @@ TEST(VdbFile, ProgressGrowsToOneAndCancellingStops) {
 }
 
 TEST(VdbFile, PathsThatAreNoFilesAreRefused) {
-  const std::string zero = test::scratch("zero.vdb"), text = test::scratch("text.vdb"), secret = test::scratch("secret.vdb");
+  const std::string zero = test::scratch("zero.vdb"), text = test::scratch("text.vdb"),
+                    secret = test::scratch("secret.vdb");
   test::write_bytes(zero, "");
   test::write_bytes(text, "This is not a grid.\n");
   test::write_bytes(secret, test::bytes_of(test::kSmoke));
@@ -571,13 +586,15 @@ TEST(VdbDamage, CutOffAnywhereIsAnError) {
 /// Small files with every way of storing values.
 std::vector<std::string> small_files() {
   std::vector<std::string> files;
-  const std::uint32_t ways[] = {openvdb::io::COMPRESS_NONE, openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK,
+  const std::uint32_t ways[] = {openvdb::io::COMPRESS_NONE,
+                                openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK,
                                 openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK};
   for (const std::uint32_t way : ways)
     for (const bool half : {false, true}) {
       auto grid = openvdb::FloatGrid::create(0.0f);
       grid->setName("density");  // without a class, so that it may be zipped
-      for (int i = 0; i < 300; ++i) grid->tree().setValue(openvdb::Coord(i % 7, i / 7 % 9, i / 63), static_cast<float>(i % 13));
+      for (int i = 0; i < 300; ++i)
+        grid->tree().setValue(openvdb::Coord(i % 7, i / 7 % 9, i / 63), static_cast<float>(i % 13));
       for (int i = 0; i < 5; ++i) grid->tree().setValueOff(openvdb::Coord(i, 0, 9), static_cast<float>(i));
       grid->tree().addTile(1, openvdb::Coord(16, 0, 0), 2, true);
       grid->setSaveFloatAsHalf(half);
@@ -592,7 +609,8 @@ TEST(VdbDamage, AnyFlippedBitIsSurvived) {
   for (const std::string& whole : small_files()) {
     // A bit in each byte of the description, then some of the rest (uncompressed trees are long and dull).
     const std::size_t dense = std::min<std::size_t>(whole.size(), 600) * 8;
-    for (std::size_t bit = rng() % 8; bit < whole.size() * 8; bit += bit < dense ? 1 + rng() % 15 : 1 + rng() % (whole.size() / 8)) {
+    for (std::size_t bit = rng() % 8; bit < whole.size() * 8;
+         bit += bit < dense ? 1 + rng() % 15 : 1 + rng() % (whole.size() / 8)) {
       std::string bytes = whole;
       bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ 1 << bit % 8);
       expect_an_answer(path, bytes);
