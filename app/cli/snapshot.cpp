@@ -5,11 +5,12 @@
 
 namespace brume {
 
-Result<ExitCode> run_snapshot_command(const SceneOptions& scene, SnapshotOptions options) {
+Result<ExitCode> run_snapshot_command(const SceneOptions& scene, const SnapshotOptions& options) {
   if (auto done = check_output(options.output, {".png"}); !done) return done.error();
-  options.file = scene.file;
-  for (const Setting& setting : scene.settings) options.overrides.emplace_back(setting.key, setting.text);
-  if (auto done = run_snapshot(options); !done) return done.error();
+  GridCache grids;
+  auto loaded = load_scene(scene, grids, {});
+  if (!loaded) return loaded.error();
+  if (auto done = run_snapshot(std::move(*loaded), options); !done) return done.error();
   print_note("wrote " + options.output);
   return ExitCode::Ok;
 }

@@ -7,7 +7,7 @@
 
 namespace brume {
 
-/// @param scene  its file and settings go into the snapshot's options
-Result<ExitCode> run_snapshot_command(const SceneOptions& scene, SnapshotOptions options);
+/// @param scene  what the interface shows
+Result<ExitCode> run_snapshot_command(const SceneOptions& scene, const SnapshotOptions& options);
 
 }  // namespace brume

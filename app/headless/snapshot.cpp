@@ -5,7 +5,6 @@
 #include <thread>
 
 #include "app/panels/main_window.h"
-#include "app/session/load_scene.h"
 #include "app/ui/stage.h"
 #include "app/ui/ui_fonts.h"
 #include "renderer/film/image_io.h"
@@ -21,18 +20,11 @@ Image8 as_image(const Stage& stage) {
 
 }  // namespace
 
-Result<void> run_snapshot(const SnapshotOptions& options) {
+Result<void> run_snapshot(LoadedScene scene, const SnapshotOptions& options) {
   auto stage = Stage::create({.width = options.width, .height = options.height, .font_paths = ui_font_paths()});
   if (!stage) return stage.error();
-
-  GridCache grids;
-  auto loaded = load_scene(options.file, grids, {});
-  if (!loaded) return loaded.error();
-  for (const auto& [key, value] : options.overrides)
-    if (auto done = set_by_path(loaded->description, key, value); !done) return done;
-
   Session session({.max_samples = options.samples});
-  session.start(loaded->description, loaded->scene_path);
+  session.start(std::move(scene.description), scene.scene_path);
   MainWindow window(session, (*stage)->gl());
   const auto draw = [&](const Gl&) { window.draw(); };
 

@@ -47,10 +47,12 @@ Result<MadeShader> make_grid_shader(const Node& volume, const ShaderContext& con
   Affined index_from_scene[2];
   Bounds3 support[2];
   double voxel_size = std::numeric_limits<double>::infinity();
+  const std::string& file = volume.text("file");
+  if (file.empty()) return bad_input("found no file name, expected a .vdb or .nvdb file", {"", 0, 0, "file"});
   for (int k = 0; k < 2; ++k) {
     const std::string& name = volume.text(keys[k]);
     if (name.empty()) continue;
-    const auto loaded = context.grids.load(volume.text("file"), name, context.load_options);
+    const auto loaded = context.grids.load(file, name, context.load_options);
     if (!loaded) {
       Error error = loaded.error();
       if (error.source.key.empty()) error.source.key = keys[k];

@@ -39,6 +39,7 @@ TEST_F(RenderCommand, WritesExrWithTheSceneInside) {
   EXPECT_EQ(file->image.height, 24);
   EXPECT_GT(file->image.at(16, 12).r, 0.0f);
   EXPECT_NE(file->metadata.scene_json.find("\"bounces\": 3"), std::string::npos) << file->metadata.scene_json;
+  EXPECT_EQ(file->metadata.extra.at("samples_per_pixel"), "2");
 }
 
 TEST_F(RenderCommand, APngRendersToTheSamePictureAgain) {
