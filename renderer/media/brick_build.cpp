@@ -142,6 +142,8 @@ Result<void> check_memory(std::uint64_t bytes) {
                    "; crop it or halve its resolution");
 }
 
+struct TilesOverlap {};
+
 /// Builds one BrickGrid. The table is filled with what lies in each 8^3 block ("content"), then turned in place into
 /// brick numbers, noting for every brick that needs storage the eight contents it is put together from.
 class BrickBuilder {
@@ -250,6 +252,8 @@ class BrickBuilder {
         tiles.push_back({VoxelIndex(low), kLeaf, tile.value, false});
         return;
       }
+      const std::size_t leaves = blocks_.leaves.size();
+      if (leaves % 1024 == 0 && !check_memory(2 * leaves * sizeof(LeafBlock))) throw std::bad_alloc();
       LeafBlock& leaf = blocks_.leaves.emplace_back();
       leaf.origin = VoxelIndex(low);
       leaf.active.fill(0);
@@ -257,7 +261,7 @@ class BrickBuilder {
     });
   }
 
-  /// Calls f(place in bricks, table element) for the part of the tile that lies in the table.
+  /// Calls f(place in bricks, table element) for the part of the tile that lies in the table. Throws TilesOverlap.
   template <class F> void for_bricks(const TileBlock& tile, const F& f) {
     const Index64 low = Index64(tile.origin), last = low + Index64(tile.size - 1);
     Index64 from, to;
@@ -265,6 +269,11 @@ class BrickBuilder {
       from[axis] = std::max(floor_to_brick(low[axis]), first_[axis]);
       to[axis] = std::min(floor_to_brick(last[axis]), first_[axis] + extent_[axis] - 1);
     }
+    if (to.x < from.x || to.y < from.y || to.z < from.z) return;
+    // Each place is visited once when tiles are split and once when the table is filled, unless a damaged file has
+    // tiles one upon the other, thousands of them perhaps.
+    visited_ += (to.x - from.x + 1) * (to.y - from.y + 1) * (to.z - from.z + 1);
+    if (visited_ > 3 * extent_.x * extent_.y * extent_.z) throw TilesOverlap();
     for (std::int64_t x = from.x; x <= to.x; ++x)
       for (std::int64_t y = from.y; y <= to.y; ++y)
         for (std::int64_t z = from.z; z <= to.z; ++z) f(Index64(x, y, z), *element({x, y, z}));
@@ -384,6 +393,7 @@ class BrickBuilder {
   BrickGrid grid_;
   VoxelBox active_;
   Index64 first_, extent_;  // of the table, in bricks
+  std::int64_t visited_ = 0;
   float low_ = std::numeric_limits<float>::infinity();
   std::vector<LeafSummary> summaries_;
   std::vector<float> constants_;
@@ -396,6 +406,8 @@ Result<BrickGrid> build_brick_grid(VoxelBlocks blocks, const LoadOptions& option
     return BrickBuilder(std::move(blocks), options).build();
   } catch (const std::bad_alloc&) {
     return bad_input("the grid does not fit in the free memory; crop it or halve its resolution");
+  } catch (const TilesOverlap&) {
+    return bad_input("the grid is damaged: its tiles overlap");
   } catch (const std::length_error&) {
     return bad_input("the grid does not fit in the free memory; crop it or halve its resolution");
   }

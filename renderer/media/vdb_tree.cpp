@@ -182,28 +182,27 @@ class TopologyReader {
     if (c_.get<std::int32_t>() != 1) throw Damaged{"the tree has more than one value a voxel"};
     tree_.background = to_float(format_.value, c_.take(bytes).data());
     const auto tiles = c_.get<std::uint32_t>(), children = c_.get<std::uint32_t>();
+    // OpenVDB keeps both sorted, and later finds the leaves' values in that order.
+    std::optional<VoxelIndex> last;
     for (std::uint32_t i = 0; i < tiles; ++i) {
-      const VoxelIndex origin = root_place();
+      const VoxelIndex origin = root_place(last);
       const float value = to_float(format_.value, c_.take(bytes).data());
       add_tile(origin, 4096, value, c_.get<std::uint8_t>() != 0);
     }
-    // OpenVDB keeps the children sorted, and later finds the leaves' values in that order.
-    std::optional<VoxelIndex> last;
-    for (std::uint32_t i = 0; i < children; ++i) {
-      const VoxelIndex origin = root_place();
-      if (last && !before(*last, origin)) throw Damaged{"the tree's branches are out of order"};
-      last = origin;
-      node<5, 7>(origin);
-    }
+    last.reset();
+    for (std::uint32_t i = 0; i < children; ++i) node<5, 7>(root_place(last));
   }
 
  private:
   static bool before(VoxelIndex a, VoxelIndex b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
 
-  VoxelIndex root_place() {
+  /// A place in the root, which must lie behind `last`; replaces that.
+  VoxelIndex root_place(std::optional<VoxelIndex>& last) {
     const auto x = c_.get<std::int32_t>(), y = c_.get<std::int32_t>(), z = c_.get<std::int32_t>();
     if ((x | y | z) & 4095) throw Damaged{"the tree has a branch at an impossible place"};
-    return {x, y, z};
+    if (last && !before(*last, {x, y, z})) throw Damaged{"the tree's branches are out of order"};
+    last = VoxelIndex(x, y, z);
+    return *last;
   }
 
   /// An internal node with 2^kLog2 children an edge, each of 2^kChildLog2 voxels an edge.

@@ -147,6 +147,14 @@ TEST(BrickGrid, LeavesWinOverTiles) {
   EXPECT_EQ(grid.voxel({72, 71, 71}), 1);
 }
 
+TEST(BrickGrid, HeapsOfOverlappingTilesAreRefused) {
+  VoxelBlocks blocks;
+  for (int i = 0; i < 10; ++i) blocks.tiles.push_back({{0, 0, 0}, 128, 1, true});
+  const auto built = build_brick_grid(std::move(blocks));
+  ASSERT_FALSE(built.ok());
+  EXPECT_NE(built.error().message.find("overlap"), std::string::npos);
+}
+
 TEST(BrickGrid, EmptyGridIsRefused) {
   const auto nothing = build_brick_grid({});
   ASSERT_FALSE(nothing.ok());
