@@ -148,7 +148,8 @@ Result<ExitCode> run_render(const RenderOptions& options) {
   const double noise = film.noise_estimate();
   Picture picture;
   picture.image = film.mean_image();
-  if (auto done = write_picture(options.output, picture.image, loaded->description); !done) return done.error();
+  picture.statistics = statistics;
+  if (auto done = write_picture(options.output, picture, loaded->description); !done) return done.error();
   if (const auto why = explain_black(*scene, picture)) print_warning("the picture is black. " + *why);
   if (!options.statistics_file.empty()) {
     const RenderReport report{options.scene.file,

@@ -55,13 +55,20 @@ Result<LoadedScene> load_scene(const std::string& path, GridCache& grids, const 
   return LoadedScene{std::move(*description), absolute(path), {}};
 }
 
-Result<void> write_picture(const std::string& path, const Image& image, const Node& description) {
+Result<void> write_picture(const std::string& path, const Picture& picture, const Node& description) {
   const std::string folder = std::filesystem::path(absolute(path)).parent_path().string();
   ImageMetadata metadata;
-  metadata.scene_json = write_scene_text(description, folder);
+  auto scene_json = write_scene_text(description, folder);
+  if (!scene_json) {
+    Error error = scene_json.error();
+    error.source.file = path;
+    return error;
+  }
+  metadata.scene_json = std::move(*scene_json);
+  metadata.extra["samples_per_pixel"] = std::to_string(picture.statistics.samples_per_pixel);
   const std::string kind = extension(path);
-  if (kind == ".exr") return write_exr(path, image, metadata);
-  if (kind == ".png") return write_png(path, to_display(image, display_settings(description.child("film"))), metadata);
+  if (kind == ".exr") return write_exr(path, picture.image, metadata);
+  if (kind == ".png") return write_png(path, to_display(picture.image, display_settings(description.child("film"))), metadata);
   return bad_input("found the extension \"" + kind + "\", expected .exr or .png", {path, 0, 0, ""});
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/film/image.h"
+#include "renderer/engine/engine.h"
 #include "renderer/media/grid_cache.h"
 #include "renderer/params/node.h"
 
@@ -20,7 +20,8 @@ struct LoadedScene {
 /// its scene.
 Result<LoadedScene> load_scene(const std::string& path, GridCache& grids, const LoadOptions& options);
 
-/// Linear values (.exr) or display values by the film's exposure and curve (.png), with the scene inside.
-Result<void> write_picture(const std::string& path, const Image& image, const Node& description);
+/// Linear values (.exr) or display values by the film's exposure and curve (.png), with the scene inside and, under
+/// "samples_per_pixel", what was spent on it.
+Result<void> write_picture(const std::string& path, const Picture& picture, const Node& description);
 
 }  // namespace brume

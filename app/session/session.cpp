@@ -118,7 +118,7 @@ Result<void> Session::save_as(const std::string& path) {
 Result<void> Session::export_picture(const std::string& path) const {
   const auto shown = picture();
   if (!shown) return bad_input("there is no picture yet", {path, 0, 0, ""});
-  return write_picture(path, shown->image, description_);
+  return write_picture(path, *shown, description_);
 }
 
 void Session::frame_all() {

@@ -123,7 +123,8 @@ Result<Node> read_scene_file(const std::string& path, const Family& root) {
   return read_scene_text(*text, path, folder_of(path), root);
 }
 
-std::string write_scene_text(const Node& node, const std::string& target_dir) {
+Result<std::string> write_scene_text(const Node& node, const std::string& target_dir) {
+  if (auto done = check_utf8(node, ""); !done) return done.error();
   JsonValue json = JsonValue::object();
   json.add(kSceneFormatKey, kSceneFormat);
   JsonValue content = node_to_json(node, family_of(node), {target_dir});
@@ -132,12 +133,13 @@ std::string write_scene_text(const Node& node, const std::string& target_dir) {
 }
 
 Result<void> write_scene_file(const std::string& path, const Node& node) {
-  if (auto done = check_utf8(node, ""); !done) {
-    Error error = done.error();
+  const auto text = write_scene_text(node, folder_of(path));
+  if (!text) {
+    Error error = text.error();
     error.source.file = path;
     return error;
   }
-  return write_text_atomically(path, write_scene_text(node, folder_of(path)));
+  return write_text_atomically(path, *text);
 }
 
 }  // namespace brume

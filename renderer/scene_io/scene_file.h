@@ -20,10 +20,11 @@ Result<Node> read_scene_text(std::string_view text, const std::string& file_name
 Result<Node> read_scene_file(const std::string& path, const Family& root);
 
 /// The scene as text meant for the folder `target_dir`; only what differs from the defaults. See node_to_json().
-std::string write_scene_text(const Node& node, const std::string& target_dir);
+/// Errors when a text in it is not UTF-8 (a file name can be), since that could not be read back.
+Result<std::string> write_scene_text(const Node& node, const std::string& target_dir);
 
-/// Writes a scene file: it appears complete or not at all. Errors when a text in it is not UTF-8 (a file name can be),
-/// since that could not be read back, and when the file cannot be written.
+/// Writes a scene file: it appears complete or not at all. Errors as write_scene_text(), and when the file cannot be
+/// written.
 Result<void> write_scene_file(const std::string& path, const Node& node);
 
 }  // namespace brume

@@ -73,10 +73,10 @@ TEST(SceneText, OtherErrorsKeepTheirPlaces) {
 }
 
 TEST(SceneText, WritesTheVersionFirst) {
-  EXPECT_EQ(write_scene_text(studio(), "/base"), "{\n  \"brume\": 1\n}\n");
+  EXPECT_EQ(*write_scene_text(studio(), "/base"), "{\n  \"brume\": 1\n}\n");
   Node s = studio();
   ASSERT_TRUE(s.child("film").set("exposure", 1.0).ok());
-  EXPECT_EQ(write_scene_text(s, "/base"), "{\n  \"brume\": 1,\n  \"film\": {\"exposure\": 1}\n}\n");
+  EXPECT_EQ(*write_scene_text(s, "/base"), "{\n  \"brume\": 1,\n  \"film\": {\"exposure\": 1}\n}\n");
 }
 
 TEST(SceneText, EveryTruncationIsAnErrorAndNoCrash) {
