@@ -39,7 +39,7 @@ double two_digits(double v) {
 
 std::string short_number(double v) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g", v);
+  std::snprintf(text, sizeof text, v >= 1000 && v < 1e9 ? "%.0f" : "%.3g", v);
   return text;
 }
 
