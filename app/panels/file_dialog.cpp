@@ -50,9 +50,8 @@ void FileDialog::list_folder() {
     if (folder ? !name.starts_with('.') : shown(name)) entries_.push_back({name, folder});
   }
   if (error) problem_ = folder_ + ": " + error.message();
-  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-    return a.folder != b.folder ? a.folder : a.name < b.name;
-  });
+  std::sort(entries_.begin(), entries_.end(),
+            [](const Entry& a, const Entry& b) { return a.folder != b.folder ? a.folder : a.name < b.name; });
 }
 
 void FileDialog::accept() {

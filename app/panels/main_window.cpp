@@ -71,13 +71,19 @@ void MainWindow::drop(const std::vector<std::string>& paths) {
 }
 
 void MainWindow::ask_open() {
-  dialog_.open({"Open", {".json", ".vdb", ".nvdb", ".exr", ".png"}, false,
+  dialog_.open({"Open",
+                {".json", ".vdb", ".nvdb", ".exr", ".png"},
+                false,
                 session_.path().empty() ? "" : std::filesystem::path(session_.path()).parent_path().string(),
                 [this](const std::string& path) { open(path); }});
 }
 
 void MainWindow::ask_save_as() {
-  dialog_.open({"Save as", {".json"}, true, session_.path().empty() ? "untitled.json" : session_.path(), [this](std::string path) {
+  dialog_.open({"Save as",
+                {".json"},
+                true,
+                session_.path().empty() ? "untitled.json" : session_.path(),
+                [this](std::string path) {
                   if (std::filesystem::path(path).extension().empty()) path += ".json";
                   report(session_.save_as(path));
                 }});
@@ -94,7 +100,11 @@ void MainWindow::ask_export() {
 
 void MainWindow::ask_file_of(const NodePath& volume) {
   const Node* node = volume.find(session_.description());
-  dialog_.open({"Choose grid file", {".vdb", ".nvdb"}, false, node ? node->text("file") : "", [this, volume](const std::string& path) {
+  dialog_.open({"Choose grid file",
+                {".vdb", ".nvdb"},
+                false,
+                node ? node->text("file") : "",
+                [this, volume](const std::string& path) {
                   session_.change([&](Node& d) {
                     if (Node* n = volume.find(d)) static_cast<void>(n->set("file", path).ok());
                   });
@@ -122,7 +132,8 @@ void MainWindow::request_quit() {
 void MainWindow::handle_keys() {
   using ui::Key;
   if (ui::shortcut(Key::Z, {.ctrl = true}, true)) session_.undo();
-  if (ui::shortcut(Key::Z, {.ctrl = true, .shift = true}, true) || ui::shortcut(Key::Y, {.ctrl = true}, true)) session_.redo();
+  if (ui::shortcut(Key::Z, {.ctrl = true, .shift = true}, true) || ui::shortcut(Key::Y, {.ctrl = true}, true))
+    session_.redo();
   if (ui::shortcut(Key::O, {.ctrl = true})) ask_open();
   if (ui::shortcut(Key::S, {.ctrl = true})) save();
   if (ui::shortcut(Key::S, {.ctrl = true, .shift = true})) ask_save_as();
@@ -205,7 +216,8 @@ void MainWindow::draw_panels() {
       if (const auto browse = draw_inspector(session_, selected_)) ask_file_of(*browse);
     ui::end_window();
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em * 0.7f, std::floor((status - em) / 2)});
-    if (panel("Status", 0, top + height, io.DisplaySize.x, status, ImGuiWindowFlags_NoScrollbar)) draw_status_bar(session_, options_.measured);
+    if (panel("Status", 0, top + height, io.DisplaySize.x, status, ImGuiWindowFlags_NoScrollbar))
+      draw_status_bar(session_, options_.measured);
     ui::end_window();
     ImGui::PopStyleVar();
   }
@@ -214,7 +226,8 @@ void MainWindow::draw_panels() {
     ui::end_window();
   }
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-  if (panel("View", left, top, io.DisplaySize.x - left - right, height - log, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
+  if (panel("View", left, top, io.DisplaySize.x - left - right, height - log,
+            ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
     viewport_.draw(session_);
   ui::end_window();
   ImGui::PopStyleVar();
@@ -236,7 +249,9 @@ void MainWindow::draw_help() {
   if (!show_help_) return;
   const ImVec2 middle(ImGui::GetIO().DisplaySize.x / 2, ImGui::GetIO().DisplaySize.y / 2);
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
-  if (ui::begin_window("Keys", &show_help_, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse)) {
+  if (ui::begin_window(
+          "Keys", &show_help_,
+          ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse)) {
     const float column = 13 * ImGui::GetFontSize();
     for (const Shortcut& s : kHelp) {
       ImGui::TextUnformatted(s.keys);

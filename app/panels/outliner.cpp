@@ -57,7 +57,8 @@ bool draw_element(Session& session, const Slot& slot, std::size_t index, NodePat
   ui::tooltip_on_hover("On or off");
   ImGui::SameLine();
   const float button = ImGui::GetFrameHeight();
-  if (ui::selectable(name.c_str(), selected == path, {ImGui::GetContentRegionAvail().x - 2.4f * button, 0})) selected = path;
+  if (ui::selectable(name.c_str(), selected == path, {ImGui::GetContentRegionAvail().x - 2.4f * button, 0}))
+    selected = path;
   ui::tooltip_on_hover(node.table().label);
 
   ImGui::SameLine(ImGui::GetContentRegionMax().x - 2.1f * button);

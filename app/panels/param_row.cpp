@@ -28,7 +28,9 @@ double clamped(const Param& p, double v) {
   return std::clamp(v, p.low, p.high);
 }
 
-const char* number_format(const Param& p) { return p.logarithmic || p.slider_high - p.slider_low > 100 ? "%.4g" : "%.3f"; }
+const char* number_format(const Param& p) {
+  return p.logarithmic || p.slider_high - p.slider_low > 100 ? "%.4g" : "%.3f";
+}
 
 std::optional<Value> bool_widget(const char* id, bool value) {
   if (ui::checkbox(id, value)) return value;
@@ -37,12 +39,14 @@ std::optional<Value> bool_widget(const char* id, bool value) {
 
 std::optional<Value> int_widget(const Param& p, const char* id, std::int64_t value) {
   int v = static_cast<int>(std::clamp<std::int64_t>(value, INT32_MIN, INT32_MAX));
-  if (!ui::slider_int(id, v, static_cast<int>(p.slider_low), static_cast<int>(p.slider_high), "%d", false)) return std::nullopt;
+  if (!ui::slider_int(id, v, static_cast<int>(p.slider_low), static_cast<int>(p.slider_high), "%d", false))
+    return std::nullopt;
   return static_cast<std::int64_t>(clamped(p, v));
 }
 
 std::optional<Value> number_widget(const Param& p, const char* id, double value) {
-  if (!ui::slider_float(id, value, {p.slider_low, p.slider_high, p.logarithmic, false, number_format(p)})) return std::nullopt;
+  if (!ui::slider_float(id, value, {p.slider_low, p.slider_high, p.logarithmic, false, number_format(p)}))
+    return std::nullopt;
   return clamped(p, value);
 }
 
@@ -93,8 +97,9 @@ std::optional<Value> color_widget(const Param& p, const char* id, const Numbers&
 std::optional<Value> fields_widget(const Param& p, const char* id, const Numbers& value, std::size_t columns) {
   const ui::Scope scope(id);
   std::optional<Value> edited;
-  const float width = (ImGui::CalcItemWidth() - ImGui::GetStyle().ItemInnerSpacing.x * static_cast<float>(columns - 1)) /
-                      static_cast<float>(columns);
+  const float width =
+      (ImGui::CalcItemWidth() - ImGui::GetStyle().ItemInnerSpacing.x * static_cast<float>(columns - 1)) /
+      static_cast<float>(columns);
   const float left = ImGui::GetCursorPosX();
   for (std::size_t i = 0; i < value.size(); ++i) {
     if (i % columns != 0)
@@ -128,25 +133,38 @@ std::optional<Value> text_widget(const char* id, std::string text) {
   return text;
 }
 
-std::optional<Value> widget(const Param& p, const char* id, const Value& value, const ParamRowContext& context, bool& browse) {
+std::optional<Value> widget(const Param& p, const char* id, const Value& value, const ParamRowContext& context,
+                            bool& browse) {
   switch (p.type) {
-    case ParamType::Bool: return bool_widget(id, std::get<bool>(value));
-    case ParamType::Int: return int_widget(p, id, std::get<std::int64_t>(value));
-    case ParamType::Number: return number_widget(p, id, std::get<double>(value));
-    case ParamType::Choice: return choice_widget(p, id, std::get<std::string>(value));
-    case ParamType::Grid: return grid_widget(id, std::get<std::string>(value), context.grids);
-    case ParamType::Text: return text_widget(id, std::get<std::string>(value));
+    case ParamType::Bool:
+      return bool_widget(id, std::get<bool>(value));
+    case ParamType::Int:
+      return int_widget(p, id, std::get<std::int64_t>(value));
+    case ParamType::Number:
+      return number_widget(p, id, std::get<double>(value));
+    case ParamType::Choice:
+      return choice_widget(p, id, std::get<std::string>(value));
+    case ParamType::Grid:
+      return grid_widget(id, std::get<std::string>(value), context.grids);
+    case ParamType::Text:
+      return text_widget(id, std::get<std::string>(value));
     case ParamType::File: {
       const std::string name = std::filesystem::path(std::get<std::string>(value)).filename().string();
-      browse = ui::button(((name.empty() ? std::string("choose...") : name) + "##" + p.label).c_str(), {ImGui::CalcItemWidth(), 0});
+      browse = ui::button(((name.empty() ? std::string("choose...") : name) + "##" + p.label).c_str(),
+                          {ImGui::CalcItemWidth(), 0});
       return std::nullopt;
     }
     case ParamType::Point:
-    case ParamType::Vector: return vector_widget(p, id, std::get<Numbers>(value));
-    case ParamType::Color: return color_widget(p, id, std::get<Numbers>(value));
-    case ParamType::Resolution: return fields_widget(p, id, std::get<Numbers>(value), 2);
-    case ParamType::Matrix: return fields_widget(p, id, std::get<Numbers>(value), 4);
-    case ParamType::NumberList: return fields_widget(p, id, std::get<Numbers>(value), 3);
+    case ParamType::Vector:
+      return vector_widget(p, id, std::get<Numbers>(value));
+    case ParamType::Color:
+      return color_widget(p, id, std::get<Numbers>(value));
+    case ParamType::Resolution:
+      return fields_widget(p, id, std::get<Numbers>(value), 2);
+    case ParamType::Matrix:
+      return fields_widget(p, id, std::get<Numbers>(value), 4);
+    case ParamType::NumberList:
+      return fields_widget(p, id, std::get<Numbers>(value), 3);
   }
   return std::nullopt;
 }
@@ -157,7 +175,8 @@ bool auto_switch(const Param& p, bool is_auto, std::optional<Value>& edited, con
   const ui::Scope scope(p.label.c_str());
   if (ui::checkbox("##auto", is_auto)) {
     edited = is_auto ? Value(Auto{}) : p.manual_value;
-    if (!is_auto && context.automatic_value && p.type == ParamType::Number) edited = clamped(p, *context.automatic_value);
+    if (!is_auto && context.automatic_value && p.type == ParamType::Number)
+      edited = clamped(p, *context.automatic_value);
   }
   ui::tooltip_on_hover("Auto: " + *p.automatic + ".");
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);

@@ -10,8 +10,8 @@
 namespace brume {
 
 struct ParamRowContext {
-  std::vector<std::string> grids;        ///< names offered for a parameter of type Grid
-  std::optional<double> automatic_value; ///< what "auto" has come to, where known
+  std::vector<std::string> grids;         ///< names offered for a parameter of type Grid
+  std::optional<double> automatic_value;  ///< what "auto" has come to, where known
 };
 
 struct ParamEdit {

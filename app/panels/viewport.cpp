@@ -56,7 +56,8 @@ void Viewport::draw_overlays(const Session& session, float x, float y, float wid
   const ImVec4 plain = ImGui::GetStyleColorVec4(ImGuiCol_Text);
   float top = y + height - 4 * em;
   if (!session.problem().empty()) plate(y + em * 2, session.problem(), {1.0f, 0.55f, 0.45f, 1});
-  if (!session.black_picture().empty() && session.problem().empty()) plate(y + height / 2 - em, session.black_picture(), plain);
+  if (!session.black_picture().empty() && session.problem().empty())
+    plate(y + height / 2 - em, session.black_picture(), plain);
   if (session.paused()) plate(top, "Paused: Space goes on", plain);
 
   if (!session.scene() && session.idle() && session.problem().empty())
@@ -66,12 +67,14 @@ void Viewport::draw_overlays(const Session& session, float x, float y, float wid
   const auto activity = session.activity();
   if (!activity || activity->seconds < 0.4) return;
   char text[160];
-  std::snprintf(text, sizeof text, "%s  %.0f %%", activity->what.c_str(), 100.0 * static_cast<double>(activity->progress));
+  std::snprintf(text, sizeof text, "%s  %.0f %%", activity->what.c_str(),
+                100.0 * static_cast<double>(activity->progress));
   top = y + height / 2 + 3 * em;
   plate(top, text, plain);
   const float bar = 16 * em, left = x + (width - bar) / 2;
   draw->AddRectFilled({left, top + 2 * em}, {left + bar, top + 2.3f * em}, IM_COL32(60, 60, 64, 255));
-  draw->AddRectFilled({left, top + 2 * em}, {left + bar * activity->progress, top + 2.3f * em}, ImGui::GetColorU32(ui::theme_accent()));
+  draw->AddRectFilled({left, top + 2 * em}, {left + bar * activity->progress, top + 2.3f * em},
+                      ImGui::GetColorU32(ui::theme_accent()));
 }
 
 void Viewport::draw(Session& session) {

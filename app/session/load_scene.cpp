@@ -33,8 +33,7 @@ Result<LoadedScene> from_picture(const std::string& path, const Result<ImageMeta
   return LoadedScene{std::move(*description), "", {"scene restored from the picture " + path}};
 }
 
-template <class File>
-Result<ImageMetadata> metadata_of(const Result<File>& file) {
+template <class File> Result<ImageMetadata> metadata_of(const Result<File>& file) {
   if (!file) return file.error();
   return file->metadata;
 }
@@ -68,7 +67,8 @@ Result<void> write_picture(const std::string& path, const Picture& picture, cons
   metadata.extra["samples_per_pixel"] = std::to_string(picture.statistics.samples_per_pixel);
   const std::string kind = extension(path);
   if (kind == ".exr") return write_exr(path, picture.image, metadata);
-  if (kind == ".png") return write_png(path, to_display(picture.image, display_settings(description.child("film"))), metadata);
+  if (kind == ".png")
+    return write_png(path, to_display(picture.image, display_settings(description.child("film"))), metadata);
   return bad_input("found the extension \"" + kind + "\", expected .exr or .png", {path, 0, 0, ""});
 }
 

@@ -12,7 +12,7 @@ namespace brume {
 
 struct LoadedScene {
   Node description;
-  std::string scene_path;          ///< where Save writes: the scene file, empty for what was made up or taken from a picture
+  std::string scene_path;  ///< where Save writes: the scene file, empty for what was made up or taken from a picture
   std::vector<std::string> notes;  ///< one sentence each: what was chosen
 };
 

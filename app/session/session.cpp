@@ -16,7 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMaxHistory = 500;   // steps; a description is a few kilobytes
+constexpr std::size_t kMaxHistory = 500;  // steps; a description is a few kilobytes
 constexpr std::size_t kMaxMessages = 500;
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
@@ -27,7 +27,7 @@ Node empty_scene() { return Node(*scene_family().tables.front()); }
 
 /// What the worker is asked for: to open a file, or to commit a description.
 struct Session::Wish {
-  std::string open;                 // path; empty: commit `description`
+  std::string open;  // path; empty: commit `description`
   std::optional<Node> description;
   std::uint64_t generation = 0;
 };
@@ -174,7 +174,8 @@ bool Session::idle() const {
 
 bool Session::up_to_date() const {
   const auto shown = picture();
-  return idle() && scene_ && shown && shown->generation == scene_->generation && shown->width == width_ && shown->height == height_;
+  return idle() && scene_ && shown && shown->generation == scene_->generation && shown->width == width_ &&
+         shown->height == height_;
 }
 
 void Session::request(Wish wish) {

@@ -13,8 +13,8 @@
 namespace brume {
 
 struct SessionOptions {
-  int threads = 0;            ///< 0: as many as the machine has
-  int max_samples = 1 << 24;  ///< per pixel; the picture is finished then
+  int threads = 0;                     ///< 0: as many as the machine has
+  int max_samples = 1 << 24;           ///< per pixel; the picture is finished then
   std::function<void()> on_news = {};  ///< called from other threads when update() would bring something new
 };
 
@@ -54,7 +54,7 @@ class Session {
   void open(const std::string& path);
   /// Starts from a description that is not on disk.
   void start(Node description, const std::string& path = {});
-  Result<void> save();                          ///< to path(), which must not be empty
+  Result<void> save();  ///< to path(), which must not be empty
   Result<void> save_as(const std::string& path);
   /// Writes the picture as shown (.png) or its linear values (.exr), with the scene inside.
   Result<void> export_picture(const std::string& path) const;
@@ -134,11 +134,11 @@ class Session {
   std::condition_variable_any wished_;
   std::unique_ptr<Wish> wish_;  // the newest, not yet taken up
   std::unique_ptr<Outcome> outcome_;
-  std::string working_on_;      // empty: nothing
+  std::string working_on_;  // empty: nothing
   std::chrono::steady_clock::time_point work_began_;
   std::stop_source cancel_work_;
   std::atomic<float> progress_ = 0;
-  std::jthread worker_;         // last: it ends before what it uses
+  std::jthread worker_;  // last: it ends before what it uses
 };
 
 }  // namespace brume

@@ -25,8 +25,7 @@ class Arena {
 
   /// Uninitialised storage for `n` values, 64-byte aligned and padded to a multiple of 64 bytes, so that SIMD code may
   /// read and write whole vectors past the end. Lives until the enclosing ArenaScope ends.
-  template <class T>
-  std::span<T> alloc_span(std::size_t n) {
+  template <class T> std::span<T> alloc_span(std::size_t n) {
     static_assert(std::is_trivially_destructible_v<T> && alignof(T) <= kAlignment);
     return {reinterpret_cast<T*>(alloc_bytes(n * sizeof(T))), n};
   }
@@ -57,7 +56,7 @@ class Arena {
   std::size_t top_ = 0;          // bytes used in it
   std::size_t used_before_ = 0;  // bytes used in the blocks below it
   std::size_t high_water_ = 0;
-  int depth_ = 0;                // open scopes
+  int depth_ = 0;  // open scopes
 };
 
 /// Marks the arena; its end rewinds to the mark. Scopes nest and must end in reverse order.

@@ -18,11 +18,11 @@ template <class A, class B>
 }  // namespace brume::detail
 
 /// Stops the program when `a op b` does not hold, in every build; prints both operands.
-#define BRUME_CHECK(a, op, b)                                                                 \
-  do {                                                                                        \
-    const auto& check_a_ = (a);                                                               \
-    const auto& check_b_ = (b);                                                               \
-    if (!(check_a_ op check_b_))                                                              \
+#define BRUME_CHECK(a, op, b)                                                                   \
+  do {                                                                                          \
+    const auto& check_a_ = (a);                                                                 \
+    const auto& check_b_ = (b);                                                                 \
+    if (!(check_a_ op check_b_))                                                                \
       ::brume::detail::check_failed(__FILE__, __LINE__, #a " " #op " " #b, check_a_, check_b_); \
   } while (false)
 

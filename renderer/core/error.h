@@ -19,9 +19,9 @@ enum class ErrorCode {
 /// Where in the input the mistake sits. Unknown parts are empty or 0.
 struct ErrorSource {
   std::string file;
-  int line = 0;    ///< counted from 1
-  int column = 0;  ///< counted from 1, in bytes
-  std::string key; ///< "lights.key.intensity"
+  int line = 0;     ///< counted from 1
+  int column = 0;   ///< counted from 1, in bytes
+  std::string key;  ///< "lights.key.intensity"
 };
 
 struct Error {
@@ -38,8 +38,7 @@ inline Error bad_input(std::string message, ErrorSource source = {}) {
 }
 
 /// A value or the reason why there is none.
-template <class T>
-class [[nodiscard]] Result {
+template <class T> class [[nodiscard]] Result {
  public:
   Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
   Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
@@ -64,8 +63,7 @@ class [[nodiscard]] Result {
 };
 
 /// Success, or the reason of failure.
-template <>
-class [[nodiscard]] Result<void> {
+template <> class [[nodiscard]] Result<void> {
  public:
   Result() = default;
   Result(Error error) : error_(std::move(error)) {}

@@ -5,8 +5,7 @@
 
 namespace brume {
 
-template <int C>
-struct Spectrum {
+template <int C> struct Spectrum {
   static_assert(C == 1 || C == 3);
   float v[C] = {};
 
@@ -14,8 +13,7 @@ struct Spectrum {
   float& operator[](int c) { return v[c]; }
 };
 
-template <int C>
-Color to_color(const Spectrum<C>& s) {
+template <int C> Color to_color(const Spectrum<C>& s) {
   if constexpr (C == 1)
     return Color(s[0]);
   else
@@ -23,8 +21,7 @@ Color to_color(const Spectrum<C>& s) {
 }
 
 /// Weights of the channels in a density that serves them all: proportional to the throughput, summing to 1.
-template <int C>
-Spectrum<C> channel_weights(Color throughput) {
+template <int C> Spectrum<C> channel_weights(Color throughput) {
   Spectrum<C> w;
   if constexpr (C == 1) {
     w[0] = 1;

@@ -10,8 +10,7 @@
 namespace brume {
 
 /// x -> A x + b, with A given by rows. Composed in double, used in float.
-template <class T>
-struct AffineT {
+template <class T> struct AffineT {
   Vec3T<T> row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   Vec3T<T> offset = {};
 
@@ -21,8 +20,7 @@ struct AffineT {
   Vec3T<T> axis(int j) const { return {row[0][j], row[1][j], row[2][j]}; }
   T determinant() const { return dot(row[0], cross(row[1], row[2])); }
 
-  template <class U>
-  AffineT<U> cast() const {
+  template <class U> AffineT<U> cast() const {
     return {{Vec3T<U>(row[0]), Vec3T<U>(row[1]), Vec3T<U>(row[2])}, Vec3T<U>(offset)};
   }
 };
@@ -60,11 +58,13 @@ inline Affined rotation_deg(Vec3d angles) {
 inline std::optional<Affined> inverse(const Affined& m) {
   const double det = m.determinant();
   if (!(std::isfinite(det) && det != 0)) return std::nullopt;
-  const Vec3d c0 = cross(m.row[1], m.row[2]) / det, c1 = cross(m.row[2], m.row[0]) / det, c2 = cross(m.row[0], m.row[1]) / det;
+  const Vec3d c0 = cross(m.row[1], m.row[2]) / det, c1 = cross(m.row[2], m.row[0]) / det,
+              c2 = cross(m.row[0], m.row[1]) / det;
   Affined inv;
   for (int i = 0; i < 3; ++i) inv.row[i] = {c0[i], c1[i], c2[i]};
   inv.offset = -inv.vector(m.offset);
-  if (!is_finite(inv.row[0]) || !is_finite(inv.row[1]) || !is_finite(inv.row[2]) || !is_finite(inv.offset)) return std::nullopt;
+  if (!is_finite(inv.row[0]) || !is_finite(inv.row[1]) || !is_finite(inv.row[2]) || !is_finite(inv.offset))
+    return std::nullopt;
   return inv;
 }
 

@@ -8,15 +8,15 @@
 namespace brume {
 
 /// Three components: a point (world units), a vector or a unit direction, as the name of the variable says.
-template <class T>
-struct Vec3T {
+template <class T> struct Vec3T {
   T x{}, y{}, z{};
 
   constexpr Vec3T() = default;
   constexpr Vec3T(T x_, T y_, T z_) : x(x_), y(y_), z(z_) {}
   explicit constexpr Vec3T(T all) : x(all), y(all), z(all) {}
   template <class U>
-  explicit constexpr Vec3T(const Vec3T<U>& v) : x(static_cast<T>(v.x)), y(static_cast<T>(v.y)), z(static_cast<T>(v.z)) {}
+  explicit constexpr Vec3T(const Vec3T<U>& v)
+      : x(static_cast<T>(v.x)), y(static_cast<T>(v.y)), z(static_cast<T>(v.z)) {}
 
   constexpr T operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
   constexpr T& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
@@ -34,15 +34,18 @@ template <class T> constexpr Vec3T<T> operator*(T s, Vec3T<T> a) { return a * s;
 template <class T> constexpr Vec3T<T> operator/(Vec3T<T> a, T s) { return {a.x / s, a.y / s, a.z / s}; }
 
 template <class T> constexpr T dot(Vec3T<T> a, Vec3T<T> b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-template <class T>
-constexpr Vec3T<T> cross(Vec3T<T> a, Vec3T<T> b) {
+template <class T> constexpr Vec3T<T> cross(Vec3T<T> a, Vec3T<T> b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 template <class T> constexpr T length_squared(Vec3T<T> a) { return dot(a, a); }
 template <class T> T length(Vec3T<T> a) { return std::sqrt(dot(a, a)); }
 template <class T> Vec3T<T> normalize(Vec3T<T> a) { return a / length(a); }
-template <class T> constexpr Vec3T<T> min(Vec3T<T> a, Vec3T<T> b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-template <class T> constexpr Vec3T<T> max(Vec3T<T> a, Vec3T<T> b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
+template <class T> constexpr Vec3T<T> min(Vec3T<T> a, Vec3T<T> b) {
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+template <class T> constexpr Vec3T<T> max(Vec3T<T> a, Vec3T<T> b) {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
 template <class T> bool is_finite(Vec3T<T> a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
 struct Vec2 {

@@ -11,9 +11,9 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr double kFirstLookSeconds = 0.033;       // the coarse first picture after an edit may take this long
+constexpr double kFirstLookSeconds = 0.033;  // the coarse first picture after an edit may take this long
 constexpr int kMaxDivisor = 32;
-constexpr double kGuessedSecondsPerRay = 20e-6;   // before anything was measured: on the safe side
+constexpr double kGuessedSecondsPerRay = 20e-6;                        // before anything was measured: on the safe side
 constexpr auto kLeastPublishInterval = std::chrono::milliseconds(15);  // no display shows more pictures than that
 
 void add(RenderStatistics& sum, const WorkerPool::Totals& totals) {
@@ -82,7 +82,8 @@ void Engine::direct(const std::stop_token& stop) {
         if (wish_number_ != current_wish_) return true;
         for (Progress& job : jobs)
           if (!job.finished() && (!paused_ || job.divisor == 0) &&
-              (!next || job.divisor == 0 || (next->divisor != 0 && job.statistics.samples_per_pixel < next->statistics.samples_per_pixel)))
+              (!next || job.divisor == 0 ||
+               (next->divisor != 0 && job.statistics.samples_per_pixel < next->statistics.samples_per_pixel)))
             next = &job;
         return next != nullptr;
       };
@@ -145,7 +146,8 @@ void Engine::render_next(Progress& job) {
     account(job, start);
     if (complete) {
       ++job.statistics.samples_per_pixel;
-      if (Clock::now() - job.published >= kLeastPublishInterval || job.finished()) publish(job, job.film.mean_image(), 1);
+      if (Clock::now() - job.published >= kLeastPublishInterval || job.finished())
+        publish(job, job.film.mean_image(), 1);
     }
   }
   if (complete) seconds_per_ray_ = std::max((job.statistics.cpu_seconds - cpu_before) / pixels, 1e-9);

@@ -22,12 +22,12 @@ struct RenderStatistics {
 
 /// A published picture; never changes.
 struct Picture {
-  Image image;             ///< mean radiance; smaller than width x height while the picture is coarse
+  Image image;  ///< mean radiance; smaller than width x height while the picture is coarse
   int width = 0, height = 0;
-  int divisor = 1;         ///< 1: full resolution
+  int divisor = 1;  ///< 1: full resolution
   std::uint64_t generation = 0;
-  double noise = 0;        ///< relative, as Film::noise_estimate; 0 while coarse
-  bool finished = false;   ///< the budget is used up
+  double noise = 0;       ///< relative, as Film::noise_estimate; 0 while coarse
+  bool finished = false;  ///< the budget is used up
   RenderStatistics statistics;
 };
 
@@ -83,9 +83,9 @@ class Engine {
 
   std::atomic<std::uint64_t> newest_wish_ = 0;  // = wish_number_, for workers
   std::atomic<bool> stopping_ = false;
-  std::uint64_t current_wish_ = 0;              // what the director works on
-  double seconds_per_ray_;                      // CPU cost of a camera ray, measured on the last pass
-  std::jthread director_;                       // last: it ends before what it uses
+  std::uint64_t current_wish_ = 0;  // what the director works on
+  double seconds_per_ray_;          // CPU cost of a camera ray, measured on the last pass
+  std::jthread director_;           // last: it ends before what it uses
 };
 
 /// The same passes, one after the other, on the caller's thread and the pool's: the batch renderer, and what tests

@@ -24,7 +24,8 @@ std::vector<float> optical_depths(const Scene& scene, int columns, int rows) {
       const Ray ray = scene.camera.ray((static_cast<float>(x) + 0.5f) / static_cast<float>(columns),
                                        (static_cast<float>(y) + 0.5f) / static_cast<float>(rows), aspect);
       const ArenaScope scope(arena);
-      const auto tau = shadow_optical_depth<3>(scene.media, ray, {scene.step_size, 0.5f, scene.render.time}, arena, counts);
+      const auto tau =
+          shadow_optical_depth<3>(scene.media, ray, {scene.step_size, 0.5f, scene.render.time}, arena, counts);
       depths.push_back((tau[0] + tau[1] + tau[2]) / 3);
     }
   return depths;
@@ -82,7 +83,8 @@ Result<FirstLook> first_look(const std::string& path, GridCache& grids, const Lo
   if (!density && !flame) {
     std::vector<std::string> names;
     for (const GridInfo& info : *infos) names.push_back(info.name + " (" + info.why_not + ")");
-    return bad_input("found no grid that can be rendered among: " + join(names) + "; expected a float fog volume", {path, 0, 0, ""});
+    return bad_input("found no grid that can be rendered among: " + join(names) + "; expected a float fog volume",
+                     {path, 0, 0, ""});
   }
 
   FirstLook look{Node(*scene_family().tables.front()), {}};
@@ -109,13 +111,15 @@ Result<FirstLook> first_look(const std::string& path, GridCache& grids, const Lo
   const Numbers& resolution = scene.child("film").numbers("resolution");
   frame_bounds(camera, made->bounds, resolution[0] / resolution[1]);
 
-  const auto committed = commit(scene, grids, {.generation = 0, .progress = options.progress, .cancel = options.cancel});
+  const auto committed =
+      commit(scene, grids, {.generation = 0, .progress = options.progress, .cancel = options.cancel});
   if (!committed) return committed.error();
   constexpr double kTargetOpticalDepth = 4;  // dense enough to have a lit and a dark side, thin enough to see into
   const double scale = two_digits(density_scale_for(**committed, kTargetOpticalDepth));
   if (scale > 0 && std::isfinite(scale)) {
     must(volume.set("density_scale", scale));
-    look.notes.push_back("density scaled by " + short_number(scale) + " so that most of it has an optical depth below 4");
+    look.notes.push_back("density scaled by " + short_number(scale) +
+                         " so that most of it has an optical depth below 4");
   }
   return look;
 }
@@ -138,10 +142,12 @@ std::optional<std::string> explain_black(const Scene& scene, const Picture& pict
   }
   if (deepest < 0.05f) {
     const float middle = depths[depths.size() / 2 + 16];
-    return "The optical depth through the middle is " + short_number(middle) + " and nowhere above " + short_number(deepest) +
-           ": raise density_scale by about " + short_number(two_digits(4 / deepest)) + " times.";
+    return "The optical depth through the middle is " + short_number(middle) + " and nowhere above " +
+           short_number(deepest) + ": raise density_scale by about " + short_number(two_digits(4 / deepest)) +
+           " times.";
   }
-  const bool scatters = std::any_of(scene.media.begin(), scene.media.end(), [](const Medium& m) { return !is_black(m.sigma_s); });
+  const bool scatters =
+      std::any_of(scene.media.begin(), scene.media.end(), [](const Medium& m) { return !is_black(m.sigma_s); });
   if (!scatters && !scene.needs.emission) return "The medium absorbs everything: raise its albedo.";
   return "The brightest value is " + short_number(brightest) + ": raise the exposure or the lights.";
 }

@@ -18,8 +18,8 @@ struct FirstLook {
 /// Errors are those of reading the file.
 Result<FirstLook> first_look(const std::string& path, GridCache& grids, const LoadOptions& options);
 
-/// The scale that brings the 90th percentile of the optical depth to `target`, over rays of the scene's camera that meet
-/// medium; 0 when none does. @param scene  with the density scale that the result multiplies
+/// The scale that brings the 90th percentile of the optical depth to `target`, over rays of the scene's camera that
+/// meet medium; 0 when none does. @param scene  with the density scale that the result multiplies
 double density_scale_for(const Scene& scene, double target);
 
 /// One sentence that says why there is nothing to see and what to do; nothing when there is something.

@@ -31,13 +31,14 @@ bool for_each_pixel(const Grid& grid, WorkerPool& pool, const Cancelled& cancell
 }
 
 /// Sample number `sample` of the pixel (x, y) of a picture of width x height.
-Color sample_pixel(const Scene& scene, const Integrator& integrator, const Grid& grid, int x, int y, std::uint32_t sample,
-                   Worker& worker) {
+Color sample_pixel(const Scene& scene, const Integrator& integrator, const Grid& grid, int x, int y,
+                   std::uint32_t sample, Worker& worker) {
   const auto pixel = static_cast<std::uint32_t>(y * grid.width + x);
   const Sampler sampler(scene.render.sampler, scene.render.seed, pixel, sample);
   const Vec2 inside = sampler.u2(Decision::Pixel);
   const float width = static_cast<float>(grid.width), height = static_cast<float>(grid.height);
-  const Ray ray = scene.camera.ray((static_cast<float>(x) + inside.x) / width, (static_cast<float>(y) + inside.y) / height, width / height);
+  const Ray ray = scene.camera.ray((static_cast<float>(x) + inside.x) / width,
+                                   (static_cast<float>(y) + inside.y) / height, width / height);
   SampleContext context{scene, sampler, worker.arena, worker.statistics};
   return integrator.radiance(ray, context);
 }
@@ -48,7 +49,8 @@ bool render_pass(const Scene& scene, const Integrator& integrator, std::uint32_t
                  const Cancelled& cancelled) {
   const Grid grid{film.width(), film.height()};
   return for_each_pixel(grid, pool, cancelled, [&](int x, int y, Worker& worker) {
-    if (!film.add_sample(x, y, sample_pixel(scene, integrator, grid, x, y, sample, worker))) ++worker.statistics.non_finite;
+    if (!film.add_sample(x, y, sample_pixel(scene, integrator, grid, x, y, sample, worker)))
+      ++worker.statistics.non_finite;
   });
 }
 

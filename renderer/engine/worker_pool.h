@@ -51,7 +51,7 @@ class WorkerPool {
   std::uint64_t loop_ = 0;  // number of the current loop
   int count_ = 0;           // its iterations
   std::atomic<int> next_ = 0;
-  int working_ = 0;  // threads that have not finished it
+  int working_ = 0;                    // threads that have not finished it
   std::vector<std::jthread> threads_;  // last: they end before what they use
 };
 

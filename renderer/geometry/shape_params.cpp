@@ -19,8 +19,11 @@ const ParamTable& sphere_table() {
       "sphere",
       "Sphere",
       "A ball, before the volume's transform.",
-      {param::point("center", "Centre", 0, 0, 0).says("Centre of the ball."),
-       param::number("radius", "Radius", 1).more_than(0).log_slider(0.01, 100).in("world units").says("Radius of the ball.")},
+      {param::point("center", "Centre", 0, 0, 0).says("Centre of the ball."), param::number("radius", "Radius", 1)
+                                                                                  .more_than(0)
+                                                                                  .log_slider(0.01, 100)
+                                                                                  .in("world units")
+                                                                                  .says("Radius of the ball.")},
       {}};
   return table;
 }

@@ -66,14 +66,15 @@ Result<std::shared_ptr<const TriangleScene>> TriangleScene::make(const std::vect
     for (const auto& triangle : mesh.triangles)
       for (const std::uint32_t index : triangle)
         if (index >= mesh.vertices.size())
-          return bad_input(name + ": found vertex number " + std::to_string(index) + ", expected less than " + std::to_string(mesh.vertices.size()));
+          return bad_input(name + ": found vertex number " + std::to_string(index) + ", expected less than " +
+                           std::to_string(mesh.vertices.size()));
     if (!std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](Vec3 v) { return is_finite(v); }))
       return bad_input(name + ": found a vertex that is not finite");
     const RTCGeometry geometry = rtcNewGeometry(state->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), mesh.vertices.size()));
-    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                        3 * sizeof(std::uint32_t), mesh.triangles.size()));
+    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                 sizeof(Vec3), mesh.vertices.size()));
+    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.triangles.size()));
     if (vertices)
       for (const Vec3 v : mesh.vertices) *vertices++ = v.x, *vertices++ = v.y, *vertices++ = v.z;
     if (indices)
@@ -94,7 +95,8 @@ std::optional<TriangleHit> TriangleScene::intersect(const Ray& ray) const {
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   intersect1(state_->scene, hit);
   if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return TriangleHit{hit.ray.tfar, normalize(Vec3(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z)), hit.hit.geomID, hit.hit.primID};
+  return TriangleHit{hit.ray.tfar, normalize(Vec3(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z)), hit.hit.geomID,
+                     hit.hit.primID};
 }
 
 bool TriangleScene::occluded(const Ray& ray) const {

@@ -18,9 +18,9 @@ struct TriangleMesh {
 };
 
 struct TriangleHit {
-  float t;                 ///< world units
-  Vec3 normal;             ///< unit, of the face: cross(v1 - v0, v2 - v0)
-  std::uint32_t mesh;      ///< in the order given to make()
+  float t;             ///< world units
+  Vec3 normal;         ///< unit, of the face: cross(v1 - v0, v2 - v0)
+  std::uint32_t mesh;  ///< in the order given to make()
   std::uint32_t triangle;
 };
 

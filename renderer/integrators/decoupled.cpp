@@ -13,8 +13,7 @@ constexpr int kRouletteBounce = 3;
 constexpr float kLeastSurvival = 0.05f;
 
 /// Transmittance from the ray's origin to t, read off the record.
-template <int C>
-Spectrum<C> transmittance_to(const MarchRecord<C>& record, float t) {
+template <int C> Spectrum<C> transmittance_to(const MarchRecord<C>& record, float t) {
   Spectrum<C> clear;
   for (float& v : clear.v) v = 1;
   if (record.empty() || t <= record.span().begin) return clear;
@@ -22,8 +21,7 @@ Spectrum<C> transmittance_to(const MarchRecord<C>& record, float t) {
 }
 
 /// What the camera sees of the lights themselves, through the medium in front of them. Lamps do not block.
-template <int C>
-Color visible_lights(const MarchRecord<C>& record, const Ray& ray, const Scene& scene) {
+template <int C> Color visible_lights(const MarchRecord<C>& record, const Ray& ray, const Scene& scene) {
   Color sum;
   for (const auto& light : scene.lights) {
     if (!light->visible_to_camera) continue;
@@ -32,17 +30,16 @@ Color visible_lights(const MarchRecord<C>& record, const Ray& ray, const Scene& 
   return sum;
 }
 
-template <int C>
-void diagnose(const MarchRecord<C>& record, RayDiagnostics& out) {
+template <int C> void diagnose(const MarchRecord<C>& record, RayDiagnostics& out) {
   out.segments = record.n;
   out.transmittance = to_color(transmittance(record));
-  for (int c = 0; c < 3 && !record.empty(); ++c) out.optical_depth[c] = record.tau[static_cast<std::size_t>(C == 1 ? 0 : c)][record.n];
+  for (int c = 0; c < 3 && !record.empty(); ++c)
+    out.optical_depth[c] = record.tau[static_cast<std::size_t>(C == 1 ? 0 : c)][record.n];
 }
 
 /// One path. A path is a loop and not a recursion: nothing of a ray's record is needed once its scattered ray is known,
 /// so the arena is rewound at every bounce and the pool does not grow with their number.
-template <int C>
-Color trace(Ray ray, SampleContext& context) {
+template <int C> Color trace(Ray ray, SampleContext& context) {
   const Scene& scene = context.scene;
   const Sampler& sampler = context.sampler;
   Color radiance;
@@ -53,8 +50,8 @@ Color trace(Ray ray, SampleContext& context) {
 
     // record
     const MarchSettings settings{scene.step_size, sampler.u1(Decision::MarchOffset, bounce), scene.render.time};
-    MarchRecord<C> rec = record<C>(scene.media, {scene.needs.emission, scene.needs.overlap}, ray, settings, context.arena,
-                                   context.statistics.march);
+    MarchRecord<C> rec = record<C>(scene.media, {scene.needs.emission, scene.needs.overlap}, ray, settings,
+                                   context.arena, context.statistics.march);
     // distribute
     if (!rec.empty()) distribute(rec, beta, context.arena);
     if (bounce == 0) {
@@ -77,7 +74,8 @@ Color trace(Ray ray, SampleContext& context) {
     const float pdf = density.pdf(at);
     if (!(pdf > 0)) return radiance;
     const auto scattered = PhaseMixture<C>(scene, rec, at.segment)
-                               .sample(ray.direction, sampler.u1(Decision::BounceLobe, bounce), sampler.u2(Decision::BounceDirection, bounce));
+                               .sample(ray.direction, sampler.u1(Decision::BounceLobe, bounce),
+                                       sampler.u2(Decision::BounceDirection, bounce));
     Spectrum<C> factor;
     for (int c = 0; c < C; ++c) factor[c] = at.sigma_s[c] * at.transmittance[c] / pdf * scattered.weight[c];
     beta *= to_color(factor);
@@ -105,7 +103,8 @@ IntegratorType decoupled_integrator_type() {
                    {}};
   for (const auto& group : {sampling_params(), march_params(), path_params()})
     table.params.insert(table.params.end(), group.begin(), group.end());
-  return {std::move(table), []() -> std::unique_ptr<const Integrator> { return std::make_unique<DecoupledIntegrator>(); }};
+  return {std::move(table),
+          []() -> std::unique_ptr<const Integrator> { return std::make_unique<DecoupledIntegrator>(); }};
 }
 
 }  // namespace brume

@@ -7,13 +7,11 @@
 
 namespace brume {
 
-template <int C>
-float PhaseMixture<C>::share(std::size_t m, int c) const {
+template <int C> float PhaseMixture<C>::share(std::size_t m, int c) const {
   return scene_.media[m].sigma_s[c] * record_.medium_density[m][segment_];
 }
 
-template <int C>
-Spectrum<C> PhaseMixture<C>::value(float cos_theta) const {
+template <int C> Spectrum<C> PhaseMixture<C>::value(float cos_theta) const {
   Spectrum<C> result;
   if (single()) {
     const float p = scene_.phases[0]->value(cos_theta);
@@ -29,8 +27,7 @@ Spectrum<C> PhaseMixture<C>::value(float cos_theta) const {
   return result;
 }
 
-template <int C>
-typename PhaseMixture<C>::Sample PhaseMixture<C>::sample(Vec3 direction, float u_lobe, Vec2 u) const {
+template <int C> typename PhaseMixture<C>::Sample PhaseMixture<C>::sample(Vec3 direction, float u_lobe, Vec2 u) const {
   Sample out;
   if (single()) {
     out.direction = scene_.phases[0]->sample(direction, u).direction;
@@ -64,8 +61,7 @@ typename PhaseMixture<C>::Sample PhaseMixture<C>::sample(Vec3 direction, float u
 
 namespace {
 
-template <int C>
-struct LightSampling {
+template <int C> struct LightSampling {
   const MarchRecord<C>& record;
   const Ray& ray;
   int bounce;
@@ -102,14 +98,17 @@ struct LightSampling {
     if (is_black(scattered)) return {};
 
     ++context.statistics.shadow_rays;
-    const MarchSettings settings{scene.shadow_step_size, context.sampler.u1(Decision::ShadowOffset, bounce, index), scene.render.time};
-    return scattered * to_color(shadow_transmittance<C>(scene.media, shadow, settings, context.arena, context.statistics.march));
+    const MarchSettings settings{scene.shadow_step_size, context.sampler.u1(Decision::ShadowOffset, bounce, index),
+                                 scene.render.time};
+    return scattered *
+           to_color(shadow_transmittance<C>(scene.media, shadow, settings, context.arena, context.statistics.march));
   }
 
   /// One light sample by density sampling, already divided by the pdf and by n.
   /// @param u  of the distance.  @param n  samples of this technique, on average over the passes
   /// @param other  the technique it is combined with, or null
-  Color by_density(const Light& light, const LightPoint& point, float u, float n, int index, const EquiangularSampling* other) const {
+  Color by_density(const Light& light, const LightPoint& point, float u, float n, int index,
+                   const EquiangularSampling* other) const {
     const DistanceSample drawn = density.sample(u);
     const RayPoint<C> at = evaluate(record, drawn.t);
     const float pdf = density.pdf(at);
@@ -119,8 +118,8 @@ struct LightSampling {
     return scattered_from(light, point, at, index) * (weight / (n * pdf));
   }
 
-  Color by_equiangular(const Light& light, const LightPoint& point, float u, float n, int index, const EquiangularSampling& equiangular,
-                       bool combined) const {
+  Color by_equiangular(const Light& light, const LightPoint& point, float u, float n, int index,
+                       const EquiangularSampling& equiangular, bool combined) const {
     const DistanceSample drawn = equiangular.sample(u);
     if (!(drawn.pdf_t > 0)) return {};
     const RayPoint<C> at = evaluate(record, drawn.t);
@@ -142,7 +141,8 @@ struct LightSampling {
     Color sum;
     // MIS gives half of the samples to each technique; of an odd number the odd one alternates between passes, starting
     // with either at random, so that every single pass is unbiased over the pixels.
-    const bool odd_pass = (context.sampler.sample() & 1) != (context.sampler.per_pixel(Decision::TechniquePhase) < 0.5f);
+    const bool odd_pass =
+        (context.sampler.sample() & 1) != (context.sampler.per_pixel(Decision::TechniquePhase) < 0.5f);
     const int of_density = (samples + (odd_pass ? 1 : 0)) / 2;
     for (int k = 0; k < samples; ++k) {
       const int index = first_index + k;
@@ -150,21 +150,24 @@ struct LightSampling {
       const Interval lit = intersect(record.span(), light.lit_part(point, {ray.origin, ray.direction, record.span()}));
       if (lit.empty()) continue;
       if (point.kind != LightPoint::Kind::Finite || render.distance_sampling == DistanceSampling::Density) {
-        sum += by_density(light, point, stratified(Decision::DensityDistance, k, samples, index), static_cast<float>(samples), index, nullptr);
+        sum += by_density(light, point, stratified(Decision::DensityDistance, k, samples, index),
+                          static_cast<float>(samples), index, nullptr);
         continue;
       }
       const EquiangularSampling equiangular(ray, point.position, lit);
       if (render.distance_sampling == DistanceSampling::Equiangular) {
-        sum += by_equiangular(light, point, stratified(Decision::EquiangularDistance, k, samples, index), static_cast<float>(samples), index,
-                              equiangular, false);
+        sum += by_equiangular(light, point, stratified(Decision::EquiangularDistance, k, samples, index),
+                              static_cast<float>(samples), index, equiangular, false);
         continue;
       }
       const float each = 0.5f * static_cast<float>(samples);
       if (k < of_density)
-        sum += by_density(light, point, stratified(Decision::DensityDistance, k, of_density, index), each, index, &equiangular);
+        sum += by_density(light, point, stratified(Decision::DensityDistance, k, of_density, index), each, index,
+                          &equiangular);
       else
-        sum += by_equiangular(light, point, stratified(Decision::EquiangularDistance, k - of_density, samples - of_density, index), each,
-                              index, equiangular, true);
+        sum += by_equiangular(light, point,
+                              stratified(Decision::EquiangularDistance, k - of_density, samples - of_density, index),
+                              each, index, equiangular, true);
     }
     return sum;
   }
@@ -179,7 +182,8 @@ Color direct_light(const MarchRecord<C>& record, const Ray& ray, Color beta, int
   const int lights = static_cast<int>(scene.lights.size()), samples = scene.render.light_samples;
   Color sum;
   if (scene.render.light_selection == LightSelection::All || lights < 2) {
-    for (int l = 0; l < lights; ++l) sum += sampling.from_light(*scene.lights[static_cast<std::size_t>(l)], samples, l * samples);
+    for (int l = 0; l < lights; ++l)
+      sum += sampling.from_light(*scene.lights[static_cast<std::size_t>(l)], samples, l * samples);
   } else {
     const float u = context.sampler.u1(Decision::LightChoice, bounce);
     const int chosen = std::min(static_cast<int>(u * static_cast<float>(lights)), lights - 1);

@@ -13,8 +13,7 @@ template <int C>
 Color direct_light(const MarchRecord<C>& record, const Ray& ray, Color beta, int bounce, SampleContext& context);
 
 /// Phase function at one point of a ray: of one medium, or of several mixed by what each scatters there.
-template <int C>
-class PhaseMixture {
+template <int C> class PhaseMixture {
  public:
   PhaseMixture(const Scene& scene, const MarchRecord<C>& record, int segment)
       : scene_(scene), record_(record), segment_(segment) {}

@@ -10,9 +10,9 @@ namespace brume {
 
 /// What rendering has cost so far; one per thread, added up afterwards.
 struct RayStatistics {
-  std::uint64_t rays = 0;         ///< camera and scattered rays
+  std::uint64_t rays = 0;  ///< camera and scattered rays
   std::uint64_t shadow_rays = 0;
-  std::uint64_t non_finite = 0;   ///< samples dropped because they were NaN or infinite
+  std::uint64_t non_finite = 0;  ///< samples dropped because they were NaN or infinite
   MarchCounts march;
 
   RayStatistics& operator+=(const RayStatistics& other);

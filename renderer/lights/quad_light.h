@@ -4,8 +4,8 @@
 
 namespace brume {
 
-/// A parallelogram of constant radiance (W/(sr m^2)), Lambertian, emitting along cross(edge_u, edge_v) or on both sides.
-/// Points are drawn uniformly over the area.
+/// A parallelogram of constant radiance (W/(sr m^2)), Lambertian, emitting along cross(edge_u, edge_v) or on both
+/// sides. Points are drawn uniformly over the area.
 class QuadLight final : public Light {
  public:
   QuadLight(Vec3 corner, Vec3 edge_u, Vec3 edge_v, Color radiance, bool two_sided);

@@ -42,18 +42,24 @@ const ParamTable& quad_table() {
 }
 
 const ParamTable& directional_table() {
-  static const ParamTable table = light_table(
-      "directional", "Directional light", "Parallel light from infinitely far away, like the sun.", false,
-      {param::vector("direction", "Direction", 0.5, 0.5, -1).says("The way the light travels; any length."),
-       param::color("irradiance", "Irradiance", 3, 3, 3).slider(0, 20).in("W/m^2").says("On a plane facing the light.")});
+  static const ParamTable table =
+      light_table("directional", "Directional light", "Parallel light from infinitely far away, like the sun.", false,
+                  {param::vector("direction", "Direction", 0.5, 0.5, -1).says("The way the light travels; any length."),
+                   param::color("irradiance", "Irradiance", 3, 3, 3)
+                       .slider(0, 20)
+                       .in("W/m^2")
+                       .says("On a plane facing the light.")});
   // A direction is no place to see: the camera never meets this light.
   return table;
 }
 
 const ParamTable& environment_table() {
-  static const ParamTable table = light_table(
-      "environment", "Environment", "The same light from every direction; seen as the background.", true,
-      {param::color("radiance", "Radiance", 0.2, 0.2, 0.2).slider(0, 2).in("W/(sr m^2)").says("Radiance of the surroundings.")});
+  static const ParamTable table =
+      light_table("environment", "Environment", "The same light from every direction; seen as the background.", true,
+                  {param::color("radiance", "Radiance", 0.2, 0.2, 0.2)
+                       .slider(0, 2)
+                       .in("W/(sr m^2)")
+                       .says("Radiance of the surroundings.")});
   return table;
 }
 

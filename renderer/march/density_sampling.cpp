@@ -4,14 +4,12 @@
 
 namespace brume {
 
-template <int C>
-int find_segment(const MarchRecord<C>& rec, float t) {
+template <int C> int find_segment(const MarchRecord<C>& rec, float t) {
   const float* above = std::upper_bound(rec.t, rec.t + rec.n + 1, t);
   return std::clamp(static_cast<int>(above - rec.t) - 1, 0, rec.n - 1);
 }
 
-template <int C>
-RayPoint<C> evaluate(const MarchRecord<C>& rec, float t, int segment) {
+template <int C> RayPoint<C> evaluate(const MarchRecord<C>& rec, float t, int segment) {
   RayPoint<C> point{t, segment, {}, {}};
   const auto i = static_cast<std::size_t>(segment);
   for (std::size_t c = 0; c < C; ++c) {
@@ -21,8 +19,7 @@ RayPoint<C> evaluate(const MarchRecord<C>& rec, float t, int segment) {
   return point;
 }
 
-template <int C>
-DistanceSample DensitySampling<C>::sample(float u) const {
+template <int C> DistanceSample DensitySampling<C>::sample(float u) const {
   const MarchRecord<C>& rec = record_;
   const float target = u * rec.scattered();
   // upper_bound steps over segments that scatter nothing: they have cdf[i] == cdf[i + 1].
@@ -52,8 +49,7 @@ DistanceSample DensitySampling<C>::sample(float u) const {
   return {t, pdf(evaluate(rec, t, static_cast<int>(i)))};
 }
 
-template <int C>
-float DensitySampling<C>::pdf(const RayPoint<C>& point) const {
+template <int C> float DensitySampling<C>::pdf(const RayPoint<C>& point) const {
   float sum = 0;
   for (int c = 0; c < C; ++c) sum += record_.weight[c] * point.sigma_s[c] * point.transmittance[c];
   return sum / record_.scattered();

@@ -12,8 +12,7 @@ struct DistanceSample {
 };
 
 /// The state of the ray at a distance t, read off the record in O(log n).
-template <int C>
-struct RayPoint {
+template <int C> struct RayPoint {
   float t;
   int segment;
   Spectrum<C> sigma_s;
@@ -21,14 +20,11 @@ struct RayPoint {
 };
 
 /// The segment that holds t, by binary search.  @param t  inside record.span()
-template <int C>
-int find_segment(const MarchRecord<C>& record, float t);
+template <int C> int find_segment(const MarchRecord<C>& record, float t);
 
-template <int C>
-RayPoint<C> evaluate(const MarchRecord<C>& record, float t, int segment);
+template <int C> RayPoint<C> evaluate(const MarchRecord<C>& record, float t, int segment);
 
-template <int C>
-RayPoint<C> evaluate(const MarchRecord<C>& record, float t) {
+template <int C> RayPoint<C> evaluate(const MarchRecord<C>& record, float t) {
   return evaluate(record, t, find_segment(record, t));
 }
 
@@ -36,8 +32,7 @@ RayPoint<C> evaluate(const MarchRecord<C>& record, float t) {
 /// For one channel the estimator sigma_s T / pdf is then the same number for every t. With several it is the balance
 /// heuristic over "draw the distance for channel c" (weights at most 1 / weight_c).
 /// Needs record.scattered() > 0.
-template <int C>
-class DensitySampling {
+template <int C> class DensitySampling {
  public:
   explicit DensitySampling(const MarchRecord<C>& record) : record_(record) {}
 

@@ -14,8 +14,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// length[i] = exp(-tau[i]) delta_i (1 - exp(-x)) / x with x = sigma_t[i] delta_i, for i in [0, n).
 /// Arrays are padded to whole vectors; what is computed there is never read.
-void AttenuatedLengths(int n, const float* HWY_RESTRICT t, const float* HWY_RESTRICT sigma_t, const float* HWY_RESTRICT tau,
-                       float* HWY_RESTRICT length) {
+void AttenuatedLengths(int n, const float* HWY_RESTRICT t, const float* HWY_RESTRICT sigma_t,
+                       const float* HWY_RESTRICT tau, float* HWY_RESTRICT length) {
   const hn::CappedTag<float, 16> d;
   const auto one = hn::Set(d, 1.0f);
   for (int i = 0; i < n; i += static_cast<int>(hn::Lanes(d))) {
@@ -52,8 +52,7 @@ void accumulate_tau(int n, const float* t, const float* sigma_t, float* tau) {
 
 }  // namespace
 
-template <int C>
-void distribute(MarchRecord<C>& rec, Color throughput, Arena& arena) {
+template <int C> void distribute(MarchRecord<C>& rec, Color throughput, Arena& arena) {
   const auto n = static_cast<std::size_t>(rec.n);
   rec.weight = channel_weights<C>(throughput);
   for (std::size_t c = 0; c < C; ++c) {
@@ -74,8 +73,7 @@ void distribute(MarchRecord<C>& rec, Color throughput, Arena& arena) {
   rec.cdf = cdf;
 }
 
-template <int C>
-Color emitted_radiance(const MarchRecord<C>& rec) {
+template <int C> Color emitted_radiance(const MarchRecord<C>& rec) {
   Color sum;
   if (rec.emission[0] == nullptr) return sum;
   for (int c = 0; c < 3; ++c) {
@@ -88,8 +86,7 @@ Color emitted_radiance(const MarchRecord<C>& rec) {
   return sum;
 }
 
-template <int C>
-Spectrum<C> transmittance(const MarchRecord<C>& rec) {
+template <int C> Spectrum<C> transmittance(const MarchRecord<C>& rec) {
   Spectrum<C> result;
   for (int c = 0; c < C; ++c) result[c] = rec.empty() ? 1.0f : std::exp(-rec.tau[static_cast<std::size_t>(c)][rec.n]);
   return result;

@@ -13,15 +13,12 @@ namespace brume {
 /// for any length. Kulla 2011; Kulla & Fajardo 2012, section 4.
 /// @param throughput  of the path so far: the channels are averaged by it, so that a channel that has died out, or
 ///   one that cannot scatter, never decides alone where the others are sampled
-template <int C>
-void distribute(MarchRecord<C>& record, Color throughput, Arena& arena);
+template <int C> void distribute(MarchRecord<C>& record, Color throughput, Arena& arena);
 
 /// Radiance that the medium itself sends towards the start of the record: the sum of emission_i * length_i.
-template <int C>
-Color emitted_radiance(const MarchRecord<C>& record);
+template <int C> Color emitted_radiance(const MarchRecord<C>& record);
 
 /// Transmittance of the whole record; 1 when it is empty.
-template <int C>
-Spectrum<C> transmittance(const MarchRecord<C>& record);
+template <int C> Spectrum<C> transmittance(const MarchRecord<C>& record);
 
 }  // namespace brume

@@ -32,10 +32,10 @@ class EquiangularSampling {
   double pdf_at(double s) const;
 
   Interval span_;
-  double foot_;     // t of the pivot's foot
-  double distance_; // D
-  double a_, b_;    // ends of the span from the foot
-  double d_theta_;  // angle under which the pivot sees the span; 0: uniform
+  double foot_;      // t of the pivot's foot
+  double distance_;  // D
+  double a_, b_;     // ends of the span from the foot
+  double d_theta_;   // angle under which the pivot sees the span; 0: uniform
 };
 
 }  // namespace brume

@@ -20,8 +20,8 @@ namespace {
 /// A part of the ray in which the same media are present.
 struct Stretch {
   Interval span;
-  int first;     // segment
-  int count;     // segments
+  int first;  // segment
+  int count;  // segments
   float step;
   bool uniform;  // all its media are homogeneous (or there are none): nothing to look up
 };
@@ -55,7 +55,8 @@ Presence find_presence(std::span<const Medium> media, const Ray& ray, Arena& are
 }
 
 /// Positions at which a stretch is looked up, one per segment.
-PointBatch lookup_points(const Stretch& stretch, const float* t, const Ray& ray, const MarchSettings& settings, Arena& arena) {
+PointBatch lookup_points(const Stretch& stretch, const float* t, const Ray& ray, const MarchSettings& settings,
+                         Arena& arena) {
   const auto n = static_cast<std::size_t>(stretch.count);
   const auto x = arena.alloc_span<float>(n), y = arena.alloc_span<float>(n), z = arena.alloc_span<float>(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -98,7 +99,8 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
     std::fill_n(values, n, 0.0f);
     return values;
   };
-  for (int c = 0; c < C; ++c) rec.sigma_t[static_cast<std::size_t>(c)] = zeros(), rec.sigma_s[static_cast<std::size_t>(c)] = zeros();
+  for (int c = 0; c < C; ++c)
+    rec.sigma_t[static_cast<std::size_t>(c)] = zeros(), rec.sigma_s[static_cast<std::size_t>(c)] = zeros();
   if (contents.emission)
     for (float*& channel : rec.emission) channel = zeros();
   if (contents.overlap) {
@@ -139,13 +141,16 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
         counts.lookups += count;
       }
       for (int c = 0; c < 3; ++c)
-        add_scaled(rec.emission[static_cast<std::size_t>(c)] + first, density.data(), medium.emission[c], stretch.count);
+        add_scaled(rec.emission[static_cast<std::size_t>(c)] + first, density.data(), medium.emission[c],
+                   stretch.count);
     }
   }
   return rec;
 }
 
-template MarchRecord<1> record<1>(std::span<const Medium>, const RecordContents&, const Ray&, const MarchSettings&, Arena&, MarchCounts&);
-template MarchRecord<3> record<3>(std::span<const Medium>, const RecordContents&, const Ray&, const MarchSettings&, Arena&, MarchCounts&);
+template MarchRecord<1> record<1>(std::span<const Medium>, const RecordContents&, const Ray&, const MarchSettings&,
+                                  Arena&, MarchCounts&);
+template MarchRecord<3> record<3>(std::span<const Medium>, const RecordContents&, const Ray&, const MarchSettings&,
+                                  Arena&, MarchCounts&);
 
 }  // namespace brume

@@ -31,8 +31,7 @@ inline constexpr int kMaxSegments = 1 << 16;
 /// was open when record() was called.
 ///
 /// The first block is written by record(), the second by distribute().
-template <int C>
-struct MarchRecord {
+template <int C> struct MarchRecord {
   int n = 0;                           ///< segments; 0 when the ray meets no medium
   const float* t = nullptr;            ///< [n + 1] edges, ascending, world units; stretches of empty space count
   std::array<float*, C> sigma_t = {};  ///< [n] per world unit
@@ -40,10 +39,11 @@ struct MarchRecord {
   std::array<float*, 3> emission = {};  ///< [n] W/(sr m^3); null where no medium emits
   float** medium_density = nullptr;     ///< [media][n]; null unless several media may share a point
 
-  std::array<float*, C> tau = {};     ///< [n + 1] optical depth from t[0] to each edge
-  std::array<float*, C> length = {};  ///< [n] integral of the transmittance over the segment: T_i (1 - exp(-tau_i)) / sigma_t
-  const float* cdf = nullptr;         ///< [n + 1] running sum of P_i, not normalised
-  Spectrum<C> weight = {};            ///< of the channels in P_i
+  std::array<float*, C> tau = {};  ///< [n + 1] optical depth from t[0] to each edge
+  std::array<float*, C> length =
+      {};                      ///< [n] integral of the transmittance over the segment: T_i (1 - exp(-tau_i)) / sigma_t
+  const float* cdf = nullptr;  ///< [n + 1] running sum of P_i, not normalised
+  Spectrum<C> weight = {};     ///< of the channels in P_i
 
   bool empty() const { return n == 0; }
   Interval span() const { return {t[0], t[n]}; }

@@ -4,8 +4,8 @@ namespace brume {
 namespace {
 
 /// Integral of the density over one stretch of one medium.
-double density_integral(const Medium& medium, const Interval& span, const Ray& ray, const MarchSettings& settings, Arena& arena,
-                        MarchCounts& counts) {
+double density_integral(const Medium& medium, const Interval& span, const Ray& ray, const MarchSettings& settings,
+                        Arena& arena, MarchCounts& counts) {
   if (medium.traits.constant) return span.length();
   float step = settings.step;
   const int count = segment_count(span.length(), step, counts);
@@ -33,19 +33,22 @@ double density_integral(const Medium& medium, const Interval& span, const Ray& r
 }  // namespace
 
 template <int C>
-Spectrum<C> shadow_optical_depth(std::span<const Medium> media, const Ray& ray, const MarchSettings& settings, Arena& arena,
-                                 MarchCounts& counts) {
+Spectrum<C> shadow_optical_depth(std::span<const Medium> media, const Ray& ray, const MarchSettings& settings,
+                                 Arena& arena, MarchCounts& counts) {
   Spectrum<C> tau;
   for (const Medium& medium : media) {
     const ArenaScope scope(arena);
     double amount = 0;
-    for (const Interval& span : medium.intervals(ray, arena)) amount += density_integral(medium, span, ray, settings, arena, counts);
+    for (const Interval& span : medium.intervals(ray, arena))
+      amount += density_integral(medium, span, ray, settings, arena, counts);
     for (int c = 0; c < C; ++c) tau[c] += medium.sigma_t[c] * static_cast<float>(amount);
   }
   return tau;
 }
 
-template Spectrum<1> shadow_optical_depth<1>(std::span<const Medium>, const Ray&, const MarchSettings&, Arena&, MarchCounts&);
-template Spectrum<3> shadow_optical_depth<3>(std::span<const Medium>, const Ray&, const MarchSettings&, Arena&, MarchCounts&);
+template Spectrum<1> shadow_optical_depth<1>(std::span<const Medium>, const Ray&, const MarchSettings&, Arena&,
+                                             MarchCounts&);
+template Spectrum<3> shadow_optical_depth<3>(std::span<const Medium>, const Ray&, const MarchSettings&, Arena&,
+                                             MarchCounts&);
 
 }  // namespace brume

@@ -7,7 +7,9 @@ namespace brume {
 /// Density 1 everywhere: a homogeneous medium, for which one segment per stretch is exact.
 class ConstantShader final : public Shader {
  public:
-  ShaderTraits traits() const override { return {.constant = true, .own_emission = false, .finest_scale = {}, .max_density = 1.0f}; }
+  ShaderTraits traits() const override {
+    return {.constant = true, .own_emission = false, .finest_scale = {}, .max_density = 1.0f};
+  }
   void density(const PointBatch& points, float* density) const override;
 };
 

@@ -8,7 +8,8 @@ Result<std::shared_ptr<const LoadedGrid>> GridCache::load(const std::string& pat
                                                           const LoadOptions& options) {
   const std::lock_guard lock(mutex_);
   std::error_code no_file;  // a missing file is reported by load_grid, in better words
-  const auto modified = std::filesystem::last_write_time(std::filesystem::path(path), no_file).time_since_epoch().count();
+  const auto modified =
+      std::filesystem::last_write_time(std::filesystem::path(path), no_file).time_since_epoch().count();
   const Key key{path, grid, modified};
   if (const auto known = grids_.find(key); known != grids_.end()) return known->second;
   auto loaded = load_grid(path, grid, options);

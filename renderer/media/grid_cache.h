@@ -12,7 +12,8 @@ namespace brume {
 /// read waits for it.
 class GridCache {
  public:
-  Result<std::shared_ptr<const LoadedGrid>> load(const std::string& path, const std::string& grid, const LoadOptions& options);
+  Result<std::shared_ptr<const LoadedGrid>> load(const std::string& path, const std::string& grid,
+                                                 const LoadOptions& options);
 
   /// Forgets what nobody else holds.
   void drop_unused();

@@ -69,7 +69,8 @@ Result<MadeShader> make_grid_shader(const Node& volume, const ShaderContext& con
     support[k] = grid.grid->support();
     voxel_size = std::min(voxel_size, smallest_edge(*scene_from_local * grid.index_to_world));
   }
-  if (!fields[0].grid && !fields[1].grid) return bad_input("found no grid, expected the name of one", {"", 0, 0, "grid"});
+  if (!fields[0].grid && !fields[1].grid)
+    return bad_input("found no grid, expected the name of one", {"", 0, 0, "grid"});
 
   // The bounds are the density's box, grown so that they hold the emission's: fire may burn where there is no smoke.
   const int main = fields[0].grid ? 0 : 1;
@@ -85,16 +86,16 @@ Result<MadeShader> make_grid_shader(const Node& volume, const ShaderContext& con
 }  // namespace
 
 ShaderType vdb_shader_type() {
-  return {"vdb",
-          "VDB grid",
-          "Density from a grid of an OpenVDB (.vdb) or NanoVDB (.nvdb) file, trilinearly interpolated.",
-          {param::file("file", "File").must_be_given().says("The .vdb or .nvdb file."),
-           param::grid("grid", "Density grid", "density")
-               .says("Name of the grid that gives the density; empty for none."),
-           param::grid("emission_grid", "Emission grid")
-               .says("Name of the grid that gives the emission; empty: the emission follows the density.")},
-          true,
-          make_grid_shader};
+  return {
+      "vdb",
+      "VDB grid",
+      "Density from a grid of an OpenVDB (.vdb) or NanoVDB (.nvdb) file, trilinearly interpolated.",
+      {param::file("file", "File").must_be_given().says("The .vdb or .nvdb file."),
+       param::grid("grid", "Density grid", "density").says("Name of the grid that gives the density; empty for none."),
+       param::grid("emission_grid", "Emission grid")
+           .says("Name of the grid that gives the emission; empty: the emission follows the density.")},
+      true,
+      make_grid_shader};
 }
 
 }  // namespace brume

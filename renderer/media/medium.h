@@ -23,7 +23,8 @@ struct Medium {
 
   /// Where the ray (scene space) is inside, in order of t.
   std::span<const Interval> intervals(const Ray& ray, Arena& arena) const {
-    return shape->intervals({shape_from_scene.point(ray.origin), shape_from_scene.vector(ray.direction), ray.span}, arena);
+    return shape->intervals({shape_from_scene.point(ray.origin), shape_from_scene.vector(ray.direction), ray.span},
+                            arena);
   }
 };
 

@@ -43,7 +43,8 @@ ProfileShader::Profile sinusoid_profile(float amplitude, Vec3 wavevector, float 
 namespace {
 
 Param axis_param() {
-  return param::choice("axis", "Axis", "z", {{"x", "x", ""}, {"y", "y", ""}, {"z", "z", ""}}).says("Axis along which the density changes.");
+  return param::choice("axis", "Axis", "z", {{"x", "x", ""}, {"y", "y", ""}, {"z", "z", ""}})
+      .says("Axis along which the density changes.");
 }
 
 int axis_of(const Node& n) { return n.text("axis")[0] - 'x'; }
@@ -56,7 +57,8 @@ std::vector<float> floats(const Node& n, const char* key) {
 }
 
 Result<MadeShader> made(const ShaderContext& context, float finest_scale, ProfileShader::Profile profile) {
-  return MadeShader{std::make_shared<ProfileShader>(context.local_from_scene.cast<float>(), finest_scale, std::move(profile))};
+  return MadeShader{
+      std::make_shared<ProfileShader>(context.local_from_scene.cast<float>(), finest_scale, std::move(profile))};
 }
 
 }  // namespace
@@ -64,19 +66,35 @@ Result<MadeShader> made(const ShaderContext& context, float finest_scale, Profil
 std::vector<ShaderType> profile_shader_types() {
   using namespace param;
   return {
-      {"exponential", "Exponential fog", "Thins out exponentially with height: exp(-(height - y0) / scale_height).",
+      {"exponential",
+       "Exponential fog",
+       "Thins out exponentially with height: exp(-(height - y0) / scale_height).",
        {axis_param(), number("y0", "Height of density 1", 0).in("world units").says("Where the density is 1."),
-        number("scale_height", "Scale height", 1).more_than(0).log_slider(0.01, 100).in("world units").says("Height over which the density falls to 1/e.")},
+        number("scale_height", "Scale height", 1)
+            .more_than(0)
+            .log_slider(0.01, 100)
+            .in("world units")
+            .says("Height over which the density falls to 1/e.")},
        false,
        [](const Node& n, const ShaderContext& c) {
-         return made(c, real(n, "scale_height") / 8, exponential_profile(axis_of(n), real(n, "y0"), real(n, "scale_height")));
+         return made(c, real(n, "scale_height") / 8,
+                     exponential_profile(axis_of(n), real(n, "y0"), real(n, "scale_height")));
        }},
-      {"gaussian", "Gaussian ball", "A soft ball: exp(-r^2 / (2 sigma^2)).",
-       {point("center", "Centre", 0, 0, 0).says("Centre of the ball."),
-        number("sigma", "Sigma", 0.5).more_than(0).log_slider(0.01, 100).in("world units").says("Standard deviation of the ball.")},
+      {"gaussian",
+       "Gaussian ball",
+       "A soft ball: exp(-r^2 / (2 sigma^2)).",
+       {point("center", "Centre", 0, 0, 0).says("Centre of the ball."), number("sigma", "Sigma", 0.5)
+                                                                            .more_than(0)
+                                                                            .log_slider(0.01, 100)
+                                                                            .in("world units")
+                                                                            .says("Standard deviation of the ball.")},
        false,
-       [](const Node& n, const ShaderContext& c) { return made(c, real(n, "sigma") / 8, gaussian_profile(vec(n, "center"), real(n, "sigma"))); }},
-      {"linear", "Linear ramp", "A density that rises linearly; 0 where it would be negative.",
+       [](const Node& n, const ShaderContext& c) {
+         return made(c, real(n, "sigma") / 8, gaussian_profile(vec(n, "center"), real(n, "sigma")));
+       }},
+      {"linear",
+       "Linear ramp",
+       "A density that rises linearly; 0 where it would be negative.",
        {vector("gradient", "Gradient", 0, 0, 1).in("1/world unit").says("Change of the density per world unit."),
         number("offset", "Offset", 1).says("Density at the origin.")},
        false,
@@ -84,8 +102,13 @@ std::vector<ShaderType> profile_shader_types() {
          const Vec3 g = vec(n, "gradient");
          return made(c, 1 / (8 * std::max(length(g), 1e-3f)), linear_profile(g, real(n, "offset")));
        }},
-      {"slabs", "Slabs", "Layers of constant density.",
-       {axis_param(), numbers("edges", "Edges", {-1, 0, 1}).in("world units").says("Ascending borders of the layers, one more than values."),
+      {"slabs",
+       "Slabs",
+       "Layers of constant density.",
+       {axis_param(),
+        numbers("edges", "Edges", {-1, 0, 1})
+            .in("world units")
+            .says("Ascending borders of the layers, one more than values."),
         numbers("values", "Values", {1, 2}).at_least(0).says("Density of each layer.")},
        false,
        [](const Node& n, const ShaderContext& c) -> Result<MadeShader> {
@@ -96,28 +119,41 @@ std::vector<ShaderType> profile_shader_types() {
                             {"", 0, 0, "edges"});
          float thinnest = std::numeric_limits<float>::infinity();
          for (std::size_t i = 1; i < edges.size(); ++i) thinnest = std::min(thinnest, edges[i] - edges[i - 1]);
-         if (!(thinnest > 0)) return bad_input("found edges that do not ascend, expected each above the last", {"", 0, 0, "edges"});
+         if (!(thinnest > 0))
+           return bad_input("found edges that do not ascend, expected each above the last", {"", 0, 0, "edges"});
          return made(c, thinnest, slabs_profile(axis_of(n), edges, values));
        }},
-      {"shell", "Shell", "A hollow ball.",
+      {"shell",
+       "Shell",
+       "A hollow ball.",
        {point("center", "Centre", 0, 0, 0).says("Centre of the ball."),
-        number("r_inner", "Inner radius", 0.8).at_least(0).slider(0, 10).in("world units").says("Radius of the hollow."),
+        number("r_inner", "Inner radius", 0.8)
+            .at_least(0)
+            .slider(0, 10)
+            .in("world units")
+            .says("Radius of the hollow."),
         number("r_outer", "Outer radius", 1).more_than(0).slider(0, 10).in("world units").says("Radius of the ball.")},
        false,
        [](const Node& n, const ShaderContext& c) -> Result<MadeShader> {
          const float inner = real(n, "r_inner"), outer = real(n, "r_outer");
          if (!(inner < outer))
-           return bad_input("found " + format_value(n.value("r_outer")) + ", expected more than r_inner", {"", 0, 0, "r_outer"});
+           return bad_input("found " + format_value(n.value("r_outer")) + ", expected more than r_inner",
+                            {"", 0, 0, "r_outer"});
          return made(c, (outer - inner) / 2, shell_profile(vec(n, "center"), inner, outer));
        }},
-      {"sinusoid", "Sinusoid", "Parallel waves: 1 + amplitude sin(2 pi wavevector.x + phase_offset).",
+      {"sinusoid",
+       "Sinusoid",
+       "Parallel waves: 1 + amplitude sin(2 pi wavevector.x + phase_offset).",
        {number("amplitude", "Amplitude", 0.9).between(-1, 1).says("Height of the waves over the mean density 1."),
-        vector("wavevector", "Wave vector", 0, 0, 4).in("cycles/world unit").says("Direction and frequency of the waves."),
+        vector("wavevector", "Wave vector", 0, 0, 4)
+            .in("cycles/world unit")
+            .says("Direction and frequency of the waves."),
         number("phase_offset", "Phase", 0).slider(-3.14, 3.14).in("radians").says("Shift of the waves.")},
        false,
        [](const Node& n, const ShaderContext& c) {
          const Vec3 k = vec(n, "wavevector");
-         return made(c, 1 / (8 * std::max(length(k), 1e-3f)), sinusoid_profile(real(n, "amplitude"), k, real(n, "phase_offset")));
+         return made(c, 1 / (8 * std::max(length(k), 1e-3f)),
+                     sinusoid_profile(real(n, "amplitude"), k, real(n, "phase_offset")));
        }},
   };
 }

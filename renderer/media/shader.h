@@ -20,10 +20,11 @@ struct PointBatch {
 
 /// What a shader can say about itself before it is asked.
 struct ShaderTraits {
-  bool constant = false;               ///< density is 1 everywhere inside the bounds: a homogeneous medium
-  bool own_emission = false;           ///< emission() gives a field of its own instead of following the density
-  std::optional<float> finest_scale = {};   ///< world units: size of the smallest feature (a voxel); sets the automatic step
-  std::optional<float> max_density = {};    ///< an upper bound of the density, where there is one
+  bool constant = false;      ///< density is 1 everywhere inside the bounds: a homogeneous medium
+  bool own_emission = false;  ///< emission() gives a field of its own instead of following the density
+  std::optional<float> finest_scale =
+      {};  ///< world units: size of the smallest feature (a voxel); sets the automatic step
+  std::optional<float> max_density = {};  ///< an upper bound of the density, where there is one
 };
 
 /// A shader is immutable and may be asked from any thread, in any order, for any n.

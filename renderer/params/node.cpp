@@ -83,7 +83,8 @@ Node Node::converted_to(const ParamTable& kind) const {
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const Param* p = kind.find(table_->params[i].key);
     // What nobody has changed takes the new kind's default; so does a value that the new kind would refuse.
-    if (p && p->type == table_->params[i].type && values_[i] != table_->params[i].default_value) static_cast<void>(out.set(p->key, values_[i]).ok());
+    if (p && p->type == table_->params[i].type && values_[i] != table_->params[i].default_value)
+      static_cast<void>(out.set(p->key, values_[i]).ok());
   }
   for (std::size_t i = 0; i < children_.size(); ++i) {
     const Slot* s = kind.find_slot(table_->slots[i].key);

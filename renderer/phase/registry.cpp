@@ -28,7 +28,8 @@ const ParamTable& henyey_greenstein_table() {
 
 const std::vector<PhaseType>& phase_types() {
   static const std::vector<PhaseType> types{
-      {&isotropic_table(), [](const Node&) -> std::unique_ptr<const PhaseFunction> { return std::make_unique<Isotropic>(); }},
+      {&isotropic_table(),
+       [](const Node&) -> std::unique_ptr<const PhaseFunction> { return std::make_unique<Isotropic>(); }},
       {&henyey_greenstein_table(),
        [](const Node& n) -> std::unique_ptr<const PhaseFunction> {
          return std::make_unique<HenyeyGreenstein>(static_cast<float>(n.number("g")));

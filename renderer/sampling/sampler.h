@@ -22,13 +22,13 @@ enum class Decision : std::uint32_t {
   LightPoint,       // 2D: where on the light; per light sample
   DensityDistance,  // distance by density sampling; per light sample
   EquiangularDistance,
-  PhaseLobe,        // which medium's phase function, where media overlap; per light sample
-  PhaseDirection,   // 2D: a direction towards an environment light; per light sample
+  PhaseLobe,       // which medium's phase function, where media overlap; per light sample
+  PhaseDirection,  // 2D: a direction towards an environment light; per light sample
   BounceDistance,
   BounceLobe,
   BounceDirection,  // 2D
   Roulette,
-  TechniquePhase,   // which technique a pixel starts with when they alternate between passes
+  TechniquePhase,  // which technique a pixel starts with when they alternate between passes
 };
 
 /// Random numbers of one sample of one pixel. A pure function of its arguments: no state advances, so results do not

@@ -26,7 +26,7 @@ struct Scene {
   float step_size = 1;         ///< world units, resolved
   float shadow_step_size = 1;  ///< world units, resolved
 
-  std::vector<Medium> media;                                  // enabled volumes
+  std::vector<Medium> media;                                 // enabled volumes
   std::vector<std::unique_ptr<const PhaseFunction>> phases;  ///< of the media, in their order
   std::vector<std::unique_ptr<const Light>> lights;          // enabled lights
 

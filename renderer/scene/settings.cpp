@@ -18,18 +18,22 @@ std::vector<Param> march_params() {
 }
 
 std::vector<Param> sampling_params() {
-  return {param::choice("distance_sampling", "Distance sampling", "mis",
-                        {{"density", "Density", "in proportion to what the medium scatters: best for dense media and far lights"},
-                         {"equi_angular", "Equi-angular", "in proportion to 1/r^2 from the light: best for thin media and near lights"},
-                         {"mis", "MIS", "both, combined by multiple importance sampling"}})
+  return {param::choice(
+              "distance_sampling", "Distance sampling", "mis",
+              {{"density", "Density", "in proportion to what the medium scatters: best for dense media and far lights"},
+               {"equi_angular", "Equi-angular",
+                "in proportion to 1/r^2 from the light: best for thin media and near lights"},
+               {"mis", "MIS", "both, combined by multiple importance sampling"}})
               .says("How the distance of a light sample along the ray is drawn."),
-          param::choice("mis_heuristic", "MIS heuristic", "power",
-                        {{"power", "Power", "squares the densities"}, {"balance", "Balance", "takes the densities as they are"}})
+          param::choice(
+              "mis_heuristic", "MIS heuristic", "power",
+              {{"power", "Power", "squares the densities"}, {"balance", "Balance", "takes the densities as they are"}})
               .says("How the two techniques are weighted in MIS."),
           param::integer("light_samples", "Light samples", 1)
               .between(1, 256)
               .slider(1, 16)
-              .says("Shadow rays per ray and light; in MIS half go to each technique, and with 1 the technique alternates between passes."),
+              .says("Shadow rays per ray and light; in MIS half go to each technique, and with 1 the technique "
+                    "alternates between passes."),
           param::choice("light_selection", "Light selection", "all",
                         {{"all", "All", "every light gets its light samples"},
                          {"one", "One", "every light sample picks one light, each with the same probability"}})
@@ -37,25 +41,26 @@ std::vector<Param> sampling_params() {
 }
 
 std::vector<Param> path_params() {
-  return {param::integer("bounces", "Bounces", 0)
-              .between(0, 100000)
-              .slider(0, 16)
-              .says("Scattered rays traced per camera ray; 0 is single scattering, B gives orders 1 to B + 1 of the light of lamps."),
-          param::flag("russian_roulette", "Russian roulette", true)
-              .says("Ends faint paths early without changing the mean, from the third bounce on."),
-          param::choice("sampler", "Sampler", "sobol",
-                        {{"sobol", "Sobol'", "Owen-scrambled low-discrepancy points: less noise after the same passes"},
-                         {"independent", "Independent", "independent random numbers: what statistics assume"}})
-              .says("Where random numbers come from."),
-          param::integer("seed", "Seed", 0).between(0, 4294967295.0).slider(0, 100).says("Another seed gives other noise."),
-          param::number("time", "Time", 0).slider(0, 10).in("seconds").says("The moment at which the scene is rendered.")};
+  return {
+      param::integer("bounces", "Bounces", 0)
+          .between(0, 100000)
+          .slider(0, 16)
+          .says("Scattered rays traced per camera ray; 0 is single scattering, B gives orders 1 to B + 1 of the light "
+                "of lamps."),
+      param::flag("russian_roulette", "Russian roulette", true)
+          .says("Ends faint paths early without changing the mean, from the third bounce on."),
+      param::choice("sampler", "Sampler", "sobol",
+                    {{"sobol", "Sobol'", "Owen-scrambled low-discrepancy points: less noise after the same passes"},
+                     {"independent", "Independent", "independent random numbers: what statistics assume"}})
+          .says("Where random numbers come from."),
+      param::integer("seed", "Seed", 0).between(0, 4294967295.0).slider(0, 100).says("Another seed gives other noise."),
+      param::number("time", "Time", 0).slider(0, 10).in("seconds").says("The moment at which the scene is rendered.")};
 }
 
 namespace {
 
 /// The value of a parameter, or `none` where the integrator has no such parameter.
-template <class T, class Read>
-T value_or(const Node& node, const char* key, T none, Read read) {
+template <class T, class Read> T value_or(const Node& node, const char* key, T none, Read read) {
   return node.table().find(key) ? read(node) : none;
 }
 
@@ -66,7 +71,9 @@ RenderSettings read_render_settings(const Node& node) {
   s.integrator = node.kind();
   s.distance_sampling = value_or(node, "distance_sampling", DistanceSampling::Density, [](const Node& n) {
     const std::string& key = n.text("distance_sampling");
-    return key == "mis" ? DistanceSampling::Mis : key == "density" ? DistanceSampling::Density : DistanceSampling::Equiangular;
+    return key == "mis"       ? DistanceSampling::Mis
+           : key == "density" ? DistanceSampling::Density
+                              : DistanceSampling::Equiangular;
   });
   s.mis_heuristic = value_or(node, "mis_heuristic", MisHeuristic::Power, [](const Node& n) {
     return n.text("mis_heuristic") == "power" ? MisHeuristic::Power : MisHeuristic::Balance;
@@ -83,7 +90,8 @@ RenderSettings read_render_settings(const Node& node) {
   s.light_selection = value_or(node, "light_selection", LightSelection::All, [](const Node& n) {
     return n.text("light_selection") == "all" ? LightSelection::All : LightSelection::One;
   });
-  s.russian_roulette = value_or(node, "russian_roulette", false, [](const Node& n) { return n.flag("russian_roulette"); });
+  s.russian_roulette =
+      value_or(node, "russian_roulette", false, [](const Node& n) { return n.flag("russian_roulette"); });
   s.sampler = node.text("sampler") == "sobol" ? SamplerKind::Sobol : SamplerKind::Independent;
   s.seed = static_cast<std::uint64_t>(std::get<std::int64_t>(node.value("seed")));
   s.time = static_cast<float>(node.number("time"));
@@ -111,10 +119,7 @@ const Family& film_family() {
                       {"filmic", "Filmic", "a soft shoulder that keeps bright fire and lamps from clipping"}})
            .costs(Affects::Display)
            .says("How linear values become display values."),
-       param::number("gamma", "Gamma", 2.2)
-           .between(1, 4)
-           .costs(Affects::Display)
-           .says("Exponent of the gamma curve.")},
+       param::number("gamma", "Gamma", 2.2).between(1, 4).costs(Affects::Display).says("Exponent of the gamma curve.")},
       {}};
   static const Family family{"film", "", {&table}};
   return family;

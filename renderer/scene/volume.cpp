@@ -14,8 +14,13 @@ const Family& transform_family() {
       "Transform",
       "From the volume's own space to the world: scaled, then rotated about x, y, z, then moved.",
       {param::vector("translate", "Move", 0, 0, 0).in("world units").slider(-10, 10).says("Shift in world space."),
-       param::vector("rotate_deg", "Rotate", 0, 0, 0).slider(-180, 180).in("degrees").says("Turns about x, then y, then z."),
-       param::vector("scale", "Scale", 1, 1, 1).slider(0.1, 10).says("Stretch along each axis; negative mirrors, 0 is refused."),
+       param::vector("rotate_deg", "Rotate", 0, 0, 0)
+           .slider(-180, 180)
+           .in("degrees")
+           .says("Turns about x, then y, then z."),
+       param::vector("scale", "Scale", 1, 1, 1)
+           .slider(0.1, 10)
+           .says("Stretch along each axis; negative mirrors, 0 is refused."),
        param::matrix("matrix", "Matrix").says("A 4x4 affine matrix by rows that replaces the three above when given.")},
       {}};
   static const Family family{"transform", "", {&table}};
@@ -92,8 +97,8 @@ Result<Affined> world_from_local(const Node& transform) {
     if (!inverse(affine)) return wrong("matrix", "found a matrix that flattens space, expected an invertible one");
     return affine;
   }
-  const Affined affine =
-      translation(transform.vec3("translate")) * rotation_deg(transform.vec3("rotate_deg")) * scaling(transform.vec3("scale"));
+  const Affined affine = translation(transform.vec3("translate")) * rotation_deg(transform.vec3("rotate_deg")) *
+                         scaling(transform.vec3("scale"));
   if (!inverse(affine))
     return wrong("scale", "found " + format_value(transform.value("scale")) + ", expected no component to be 0");
   return affine;

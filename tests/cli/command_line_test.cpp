@@ -137,12 +137,14 @@ TEST_F(SettingTest, RelativeFilesAreMeantFromTheCurrentFolder) {
   mended.insert(mended.end(), {"--set", "volumes.a.file=smoke.vdb"});
   const Outcome o = run(mended);
   EXPECT_EQ(o.exit_code, 0) << o.err;
-  const Outcome ui = run({"snapshot", "scenes/smoke.json", "-o", "ui.png", "--spp", "1", "--set", "volumes.a.file=smoke.vdb"});
+  const Outcome ui =
+      run({"snapshot", "scenes/smoke.json", "-o", "ui.png", "--spp", "1", "--set", "volumes.a.file=smoke.vdb"});
   EXPECT_EQ(ui.exit_code, 0) << ui.err;
 }
 
 TEST_F(SettingTest, AVolumeThatBecomesAGridWantsAFile) {
-  expect_refused({"render", "scene.json", "-o", "a.png", "--set", "volumes.fog.shader=vdb"}, "volumes.fog.file: found no file name");
+  expect_refused({"render", "scene.json", "-o", "a.png", "--set", "volumes.fog.shader=vdb"},
+                 "volumes.fog.file: found no file name");
 }
 
 }  // namespace

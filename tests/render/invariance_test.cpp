@@ -24,7 +24,8 @@ std::string matrix_text(const Affined& m) {
   return format_value(n);
 }
 
-void add_volume_at(Node& scene, const Whole& whole, const std::string& shader, double density, const std::string& albedo) {
+void add_volume_at(Node& scene, const Whole& whole, const std::string& shader, double density,
+                   const std::string& albedo) {
   Node& v = add_volume(scene, shader);
   set(v, "transform.matrix", matrix_text(whole.map));
   set(v, "density_scale", format_value(density / whole.scale));
@@ -89,13 +90,15 @@ std::pair<double, double> block(const Film& film, int column, int row, int chann
 
 TEST(Invariance, PicturesOfTurnedScaledMirroredAndMovedScenesAreTheSame) {
   const Whole same{"as it is", {}, 1};
-  const Whole wholes[] = {{"turned", rotation_deg({30, -50, 70}), 1},
-                          {"three times the size", scaling({3, 3, 3}), 3},
-                          {"a hundredth of the size", scaling({0.01, 0.01, 0.01}), 0.01},
-                          {"mirrored", scaling({-1, 1, 1}), 1},
-                          {"moved a little", translation({20, -10, 5}), 1},
-                          {"turned and moved by a million", translation({1e6, -2e6, 3e6}) * rotation_deg({-20, 140, 80}), 1},
-                          {"mirrored, scaled, turned and moved", translation({3, 4, 5}) * rotation_deg({10, 20, 30}) * scaling({2, -2, 2}), 2}};
+  const Whole wholes[] = {
+      {"turned", rotation_deg({30, -50, 70}), 1},
+      {"three times the size", scaling({3, 3, 3}), 3},
+      {"a hundredth of the size", scaling({0.01, 0.01, 0.01}), 0.01},
+      {"mirrored", scaling({-1, 1, 1}), 1},
+      {"moved a little", translation({20, -10, 5}), 1},
+      {"turned and moved by a million", translation({1e6, -2e6, 3e6}) * rotation_deg({-20, 140, 80}), 1},
+      {"mirrored, scaled, turned and moved", translation({3, 4, 5}) * rotation_deg({10, 20, 30}) * scaling({2, -2, 2}),
+       2}};
   const Film reference = picture_of(*scene_under(same, 1));
   const int columns = kWidth / kBlock, rows = kHeight / kBlock;
   const double bound = sidak_z(1e-3, static_cast<int>(std::size(wholes)) * columns * rows * 3);
@@ -111,7 +114,8 @@ TEST(Invariance, PicturesOfTurnedScaledMirroredAndMovedScenesAreTheSame) {
           const auto [b, variance_b] = block(film, column, row, c, mirrored);
           const double z = (a - b) / std::sqrt(variance_a + variance_b);
           largest = std::max(largest, std::abs(z));
-          EXPECT_LT(std::abs(z), bound) << whole.what << ", block " << column << ' ' << row << ", channel " << c << ": " << a << " and " << b;
+          EXPECT_LT(std::abs(z), bound) << whole.what << ", block " << column << ' ' << row << ", channel " << c << ": "
+                                        << a << " and " << b;
         }
   }
   // The test can tell pictures apart at all: half a block to the side is another picture.
@@ -124,8 +128,8 @@ TEST(Invariance, PicturesOfTurnedScaledMirroredAndMovedScenesAreTheSame) {
       difference = std::max(difference, std::abs(a - b) / std::sqrt(variance_a + variance_b));
     }
   EXPECT_GT(difference, bound) << "a scene of other coefficients passes, too";
-  std::printf("largest |z| of %d blocks: %.2f (allowed %.2f); of another scene: %.1f\n", static_cast<int>(std::size(wholes)) * columns * rows * 3,
-              largest, bound, difference);
+  std::printf("largest |z| of %d blocks: %.2f (allowed %.2f); of another scene: %.1f\n",
+              static_cast<int>(std::size(wholes)) * columns * rows * 3, largest, bound, difference);
 }
 
 // O10 of the catalogue: transmittance is a matter of lengths in the world, whatever the map of the volume does to them.
@@ -137,7 +141,8 @@ TEST(Invariance, TransmittanceUnderAnyAffineMapIsThatOfTheLengthInTheWorld) {
       {"mirrored", scaling({1, -1, 1})},
       {"sheared", shear},
       {"all at once", translation({2, 1, -1}) * rotation_deg({5, 60, 20}) * shear * scaling({-2, 0.5, 1})},
-      {"and a million away", translation({1e6, 1e6, -1e6}) * rotation_deg({5, 60, 20}) * shear * scaling({-2, 0.5, 1})}};
+      {"and a million away",
+       translation({1e6, 1e6, -1e6}) * rotation_deg({5, 60, 20}) * shear * scaling({-2, 0.5, 1})}};
   for (const auto& [what, map] : maps)
     for (const char* shader : {"homogeneous", "linear"}) {  // the ramp is level: marched, but the same medium
       Node description = empty_scene();
@@ -169,7 +174,8 @@ TEST(Invariance, TransmittanceUnderAnyAffineMapIsThatOfTheLengthInTheWorld) {
         Arena arena;
         MarchCounts counts;
         const float tau = shadow_optical_depth<1>(scene->media, ray, {0.1f, 0.3f, 0}, arena, counts)[0];
-        // Ends at t near 15 are floats 1e-6 apart; the map in float is off by 1e-7 of its entries, some 1e-5 of the chord.
+        // Ends at t near 15 are floats 1e-6 apart; the map in float is off by 1e-7 of its entries, some 1e-5 of the
+        // chord.
         ASSERT_NEAR(double(tau), 0.7 * (end - begin), 1e-4 * std::max(1.0, end - begin)) << what << ", ray " << i;
       }
       EXPECT_GT(met, 150);

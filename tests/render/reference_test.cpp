@@ -34,9 +34,9 @@ bool full() {
   return value && std::string(value) == "1";
 }
 
-constexpr double kFamilyError = 1e-3;          // right values fail one run in a thousand
-constexpr double kFloatError = 1e-5;           // relative, of a few hundred roundings of 6e-8
-double noise_target() { return kNoiseFactor * (full() ? 1e-3 : 3e-3); }    // standard error over the expected value
+constexpr double kFamilyError = 1e-3;                                    // right values fail one run in a thousand
+constexpr double kFloatError = 1e-5;                                     // relative, of a few hundred roundings of 6e-8
+double noise_target() { return kNoiseFactor * (full() ? 1e-3 : 3e-3); }  // standard error over the expected value
 double furnace_target() { return kNoiseFactor * (full() ? 2.5e-4 : 1e-3); }
 constexpr std::uint64_t kPilotSamples = 1 << 14;
 constexpr std::uint64_t kEmissionSamples = 512;  // nothing but the look-up offset is random
@@ -48,7 +48,8 @@ std::uint64_t most_samples() { return full() ? 80'000'000 : 8'000'000; }
 const std::vector<std::pair<std::string, DistanceSampling>>& impossible() {
   using enum DistanceSampling;
   static const std::vector<std::pair<std::string, DistanceSampling>> list{
-      // A point light at distance D from the ray inside the medium: the second moment of 1/r^2 under a density that does
+      // A point light at distance D from the ray inside the medium: the second moment of 1/r^2 under a density that
+      // does
       // not know of the light grows as 1/D^3, the relative variance as 1/D.
       {"ss_hom_near_D0.001_g0", Density},
       {"ss_hom_near_D0.001_g0.5", Density},
@@ -71,19 +72,20 @@ struct Job {
   const ReferenceCase* scene;
   const ReferenceQuantity* quantity;
   DistanceSampling mode = DistanceSampling::Mis;
-  double step = 0;          // world units; 0: the medium's own
+  double step = 0;            // world units; 0: the medium's own
   std::uint64_t offsets = 0;  // look-up positions for an optical depth
-  double target = 0;        // relative standard error
-  Channels floor = {};      // values below this need not be known better than to `target` of it
-  Channels bias = {};       // stated bias of the method, absolute
-  Channels floating = {};   // absolute
+  double target = 0;          // relative standard error
+  Channels floor = {};        // values below this need not be known better than to `target` of it
+  Channels bias = {};         // stated bias of the method, absolute
+  Channels floating = {};     // absolute
 };
 
 /// Channels with values of their own; grey scenes have one.
 std::vector<int> channels_of(const Job& job) {
   std::vector<int> channels{0};
   for (int k = 1; k < 3; ++k)
-    if (job.quantity->expected[static_cast<std::size_t>(k)] != job.quantity->expected[static_cast<std::size_t>(k - 1)]) channels.push_back(k);
+    if (job.quantity->expected[static_cast<std::size_t>(k)] != job.quantity->expected[static_cast<std::size_t>(k - 1)])
+      channels.push_back(k);
   return channels;
 }
 
@@ -174,8 +176,8 @@ Job optical_depth_job(const ReferenceCase& c, const ReferenceQuantity& q) {
   return job;
 }
 
-/// Emission: with j and sigma_t in one ratio L = j/sigma_t (1 - exp(-tau_hat)) exactly, where tau_hat = tau + X has mean
-/// tau over the offsets and |X| <= M = step * sigma_t * variation. The bias is that of the transmittance (Jensen):
+/// Emission: with j and sigma_t in one ratio L = j/sigma_t (1 - exp(-tau_hat)) exactly, where tau_hat = tau + X has
+/// mean tau over the offsets and |X| <= M = step * sigma_t * variation. The bias is that of the transmittance (Jensen):
 ///   0 <= E[exp(-X)] - 1 <= cosh(M) - 1 = O(step^2).
 Job emission_job(const ReferenceCase& c, const ReferenceQuantity& q) {
   Job job{&c, &q};
@@ -191,7 +193,8 @@ Job emission_job(const ReferenceCase& c, const ReferenceQuantity& q) {
       return sigma_t[0] > 0 ? std::exp(-column_tau) / sigma_t[0] * (std::cosh(step * tau) - 1) : 0.0;
     };
     // Halved until the bias is as small as the float error.
-    while (bias_at(job.step) * c.emission[0] > kFloatError * q.expected[0] && job.step > length / 60000) job.step *= 0.5;
+    while (bias_at(job.step) * c.emission[0] > kFloatError * q.expected[0] && job.step > length / 60000)
+      job.step *= 0.5;
     job.bias = scaled(c.emission, bias_at(job.step));
   }
   const double rounding = column_rounding(c, q.ray);
@@ -210,7 +213,8 @@ constexpr DistanceSampling kModes[] = {DistanceSampling::Density, DistanceSampli
 
 /// The parts of the run; one test each.
 enum Part { kTransmittance, kEmission, kSingleScattering, kFurnace, kSlabOrders, kParts };
-constexpr const char* kPartNames[kParts] = {"transmittance", "emission", "single scattering", "white furnace", "slabs by order"};
+constexpr const char* kPartNames[kParts] = {"transmittance", "emission", "single scattering", "white furnace",
+                                            "slabs by order"};
 
 class Reference : public testing::Test {
  protected:
@@ -218,7 +222,8 @@ class Reference : public testing::Test {
     plan_ = new Plan;
     const char* files[] = {"transmittance", "emission", "single_scatter_homogeneous", "furnace"};
     for (int f = 0; f < 4; ++f) {
-      auto cases = read_reference_cases(std::string(BRUME_SOURCE_DIR) + "/tests/render/reference/" + files[f] + ".json");
+      auto cases =
+          read_reference_cases(std::string(BRUME_SOURCE_DIR) + "/tests/render/reference/" + files[f] + ".json");
       if (!cases) {
         plan_->refused = cases.error().to_string();
         return;
@@ -244,25 +249,28 @@ class Reference : public testing::Test {
       } else if (q.name == "emission" && part == kEmission) {
         plan_->jobs[part].push_back(emission_job(c, q));
       } else if (q.name == "order 1" && part == kSingleScattering) {
-        for (const DistanceSampling mode : kModes) plan_->jobs[part].push_back(scattering_job(c, q, mode, noise_target()));
+        for (const DistanceSampling mode : kModes)
+          plan_->jobs[part].push_back(scattering_job(c, q, mode, noise_target()));
       } else if (q.name == "all orders + background" && part == kFurnace) {
         // An environment has no position: every mode draws its distances by density.
         plan_->jobs[part].push_back(scattering_job(c, q, DistanceSampling::Mis, furnace_target()));
       } else if (part == kSlabOrders) {
         static const std::set<std::string> chosen{"order 1", "orders 1..2", "orders 1..10", "all orders + background"};
-        if (chosen.contains(q.name)) plan_->jobs[part].push_back(scattering_job(c, q, DistanceSampling::Mis, noise_target()));
+        if (chosen.contains(q.name))
+          plan_->jobs[part].push_back(scattering_job(c, q, DistanceSampling::Mis, noise_target()));
       }
     }
   }
 
   static void TearDownTestSuite() {
-    std::printf("\n%d comparisons, |z| <= %.2f each (family-wise error %g), noise <= %.2g of the value\n", plan_->comparisons, plan_->z,
-                kFamilyError, noise_target());
-    std::printf("%-20s %6s %12s %12s %14s %14s %8s\n", "", "cases", "comparisons", "largest |z|", "largest noise", "largest error", "CPU s");
+    std::printf("\n%d comparisons, |z| <= %.2f each (family-wise error %g), noise <= %.2g of the value\n",
+                plan_->comparisons, plan_->z, kFamilyError, noise_target());
+    std::printf("%-20s %6s %12s %12s %14s %14s %8s\n", "", "cases", "comparisons", "largest |z|", "largest noise",
+                "largest error", "CPU s");
     for (int p = 0; p < kParts; ++p) {
       const Summary& s = plan_->summary[p];
-      std::printf("%-20s %6zu %12d %12.2f %13.3f%% %13.4f%% %8.1f\n", kPartNames[p], s.cases.size(), s.comparisons, s.largest_z,
-                  100 * s.largest_noise, 100 * s.largest_error, s.cpu_seconds);
+      std::printf("%-20s %6zu %12d %12.2f %13.3f%% %13.4f%% %8.1f\n", kPartNames[p], s.cases.size(), s.comparisons,
+                  s.largest_z, 100 * s.largest_noise, 100 * s.largest_error, s.cpu_seconds);
     }
     for (const std::string& line : plan_->notes) std::printf("%s\n", line.c_str());
     delete plan_;
@@ -280,7 +288,8 @@ class Reference : public testing::Test {
     parallel_for(static_cast<int>(jobs.size()), [&](int i) {
       const auto j = static_cast<std::size_t>(i);
       first[j] = measure(jobs[j], plan_->z, 0, 1);
-      const bool failed = std::any_of(first[j].results.begin(), first[j].results.end(), [](const CaseResult& r) { return !r.passed; });
+      const bool failed =
+          std::any_of(first[j].results.begin(), first[j].results.end(), [](const CaseResult& r) { return !r.passed; });
       if (failed && !is_impossible(jobs[j].scene->id, jobs[j].mode)) second[j] = measure(jobs[j], plan_->z, 1000, 16);
     });
     Summary& summary = plan_->summary[part];
@@ -321,8 +330,11 @@ class Reference : public testing::Test {
     }
     if (is_impossible(job.scene->id, job.mode)) {
       char text[200];
-      std::snprintf(text, sizeof text, "expected failure: %s %s: relative standard deviation of a sample at least %.3g; more than %.1g samples would be needed",
-                    job.scene->id.c_str(), name_of(job.mode), first.relative_deviation[0], std::pow(first.relative_deviation[0] / job.target, 2));
+      std::snprintf(text, sizeof text,
+                    "expected failure: %s %s: relative standard deviation of a sample at least %.3g; more than %.1g "
+                    "samples would be needed",
+                    job.scene->id.c_str(), name_of(job.mode), first.relative_deviation[0],
+                    std::pow(first.relative_deviation[0] / job.target, 2));
       plan_->notes.push_back(text);
       const bool possible = first.noise <= job.target && first.results[0].passed;
       EXPECT_FALSE(possible) << job.scene->id << ' ' << name_of(job.mode) << " is listed as impossible, but it is not";
@@ -336,14 +348,17 @@ class Reference : public testing::Test {
       summary.value.add(r.mean);
       summary.largest_z = std::max(summary.largest_z, std::abs(r.z));
       if (r.expected != 0) summary.largest_error = std::max(summary.largest_error, std::abs(r.mean / r.expected - 1));
-      if (repeated && !first.results[i].passed) plan_->notes.push_back("failed at first: " + first.results[i].to_string());
+      if (repeated && !first.results[i].passed)
+        plan_->notes.push_back("failed at first: " + first.results[i].to_string());
       if (repeated && !first.results[i].passed) plan_->notes.push_back("   repeated:     " + r.to_string());
-      EXPECT_TRUE(r.passed) << (repeated ? "first    " + first.results[i].to_string() + "\nrepeated " : "") << r.to_string();
+      EXPECT_TRUE(r.passed) << (repeated ? "first    " + first.results[i].to_string() + "\nrepeated " : "")
+                            << r.to_string();
     }
     summary.largest_noise = std::max(summary.largest_noise, last.noise);
     if (job.offsets == 0) {
-      EXPECT_LE(last.noise, 1.2 * job.target) << job.scene->id << ' ' << job.quantity->name << ' ' << name_of(job.mode)
-                                              << ": too noisy to judge; relative deviation of a sample " << last.relative_deviation[0];
+      EXPECT_LE(last.noise, 1.2 * job.target)
+          << job.scene->id << ' ' << job.quantity->name << ' ' << name_of(job.mode)
+          << ": too noisy to judge; relative deviation of a sample " << last.relative_deviation[0];
     }
   }
 };
@@ -366,11 +381,12 @@ TEST_F(Reference, EnvironmentOverSlabsOrderByOrder) { run(kSlabOrders); }
 
 /// The bias that the march states of itself: with one offset U for all steps of a ramp,
 ///   tau_hat - tau = (U - 1/2) step sigma_t (rho_end - rho_begin),   E[exp(-tau_hat)] = T sinh(x) / x,
-/// x = half of that step's rise. It is known in closed form, within the bound cosh(2x) - 1 that every other case uses, and
-/// falls with the square of the step.
+/// x = half of that step's rise. It is known in closed form, within the bound cosh(2x) - 1 that every other case uses,
+/// and falls with the square of the step.
 TEST_F(Reference, StepBiasOfARampIsTheOneStatedAndFallsWithTheSquareOfTheStep) {
   const auto& jobs = planned(kEmission);
-  const auto ramp = std::find_if(jobs.begin(), jobs.end(), [](const Job& j) { return j.scene->id == "em_linear" && j.offsets == 0; });
+  const auto ramp =
+      std::find_if(jobs.begin(), jobs.end(), [](const Job& j) { return j.scene->id == "em_linear" && j.offsets == 0; });
   ASSERT_NE(ramp, jobs.end());
   const ReferenceCase& c = *ramp->scene;
   const double sigma_t = c.sigma_a[0], rise = sigma_t * density_variation(c, ramp->quantity->ray);

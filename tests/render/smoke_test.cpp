@@ -41,7 +41,8 @@ void add_yardstick_lights(Node& scene) {
   set(lamp, "position", "-0.6,0.3,2.3");
   set(lamp, "intensity", "12,10,8");
   Node& quad = add_light(scene, "quad");
-  const Vec3d u{0.676625289, 0.736327521, 0}, v{0.272294013, -0.250216121, -0.92911133}, corner = Vec3d(2.9, -0.8, 2.6) - u * 0.5 - v * 0.5;
+  const Vec3d u{0.676625289, 0.736327521, 0}, v{0.272294013, -0.250216121, -0.92911133},
+      corner = Vec3d(2.9, -0.8, 2.6) - u * 0.5 - v * 0.5;
   set(quad, "corner", format_value(Numbers{corner.x, corner.y, corner.z}));
   set(quad, "edge_u", format_value(Numbers{u.x, u.y, u.z}));
   set(quad, "edge_v", format_value(Numbers{v.x, v.y, v.z}));
@@ -55,13 +56,15 @@ double deepest(const Scene& scene) {
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) {
       const Ray ray = scene.camera.ray((static_cast<float>(x) + 0.5f) / 64, (static_cast<float>(y) + 0.5f) / 64, 1);
-      depth = std::max(depth, double(shadow_optical_depth<1>(scene.media, ray, {scene.step_size, 0.5f, 0}, arena, counts)[0]));
+      depth = std::max(depth,
+                       double(shadow_optical_depth<1>(scene.media, ray, {scene.step_size, 0.5f, 0}, arena, counts)[0]));
     }
   return depth;
 }
 
-// With camera and shadow steps alike the furnace is exact at every step: what the march of a ray takes from the background
-// is what it scatters, and light arrives through marches of the same kind. A step of some voxels makes it fast.
+// With camera and shadow steps alike the furnace is exact at every step: what the march of a ray takes from the
+// background is what it scatters, and light arrives through marches of the same kind. A step of some voxels makes it
+// fast.
 TEST(Smoke, WhiteFurnaceGivesOneAtAnyStep) {
   Node scene = plume();
   set(scene, "render.sampler", "independent");
@@ -110,7 +113,8 @@ Blocks blocks_of(const Film& film, int size) {
       for (int c = 0; c < 3; ++c) {
         double sum = 0, variance = 0;
         for (int y = row * size; y < (row + 1) * size; ++y)
-          for (int x = column * size; x < (column + 1) * size; ++x) sum += double(film.mean(x, y)[c]), variance += double(film.variance(x, y)[c]);
+          for (int x = column * size; x < (column + 1) * size; ++x)
+            sum += double(film.mean(x, y)[c]), variance += double(film.variance(x, y)[c]);
         b.mean.push_back(sum / n), b.variance.push_back(variance / (n * n));
       }
   return b;
@@ -127,7 +131,8 @@ TEST(Smoke, DensityEquiangularAndMisAgreeInEveryBlockOfThePicture) {
     set(scene, "render.sampler", "independent");
     set(scene, "render.seed", std::to_string(k + 1));
     set(scene, "render.distance_sampling", modes[k]);
-    // Two samples, so that a pass of MIS has one of each technique and the film's variance is that of independent passes.
+    // Two samples, so that a pass of MIS has one of each technique and the film's variance is that of independent
+    // passes.
     set(scene, "render.light_samples", "2");
     WorkerPool pool;
     Film film(kSize, kSize);
@@ -148,15 +153,16 @@ TEST(Smoke, DensityEquiangularAndMisAgreeInEveryBlockOfThePicture) {
         ++compared;
         const double z = (pictures[i].mean[k] - pictures[j].mean[k]) / noise;
         largest = std::max(largest, std::abs(z));
-        EXPECT_LT(std::abs(z), bound) << modes[a] << " and " << modes[b] << ", value " << k << ": " << pictures[i].mean[k] << " and " << pictures[j].mean[k];
+        EXPECT_LT(std::abs(z), bound) << modes[a] << " and " << modes[b] << ", value " << k << ": "
+                                      << pictures[i].mean[k] << " and " << pictures[j].mean[k];
       }
     }
   EXPECT_GT(compared, comparisons / 4) << "hardly any smoke in the picture";
   std::printf("largest |z| of %d blocks: %.2f (allowed %.2f)\n", compared, largest, bound);
 }
 
-// Single scattering against a picture of another renderer's samples (4096 per pixel, step 0.3 voxel), which is not part of
-// the repository.
+// Single scattering against a picture of another renderer's samples (4096 per pixel, step 0.3 voxel), which is not part
+// of the repository.
 TEST(Smoke, LooksLikeTheYardstick) {
   const std::string path = std::string(BRUME_SOURCE_DIR) + "/../shared/yardstick/S2_smoke_b0_clean.exr";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
@@ -180,19 +186,20 @@ TEST(Smoke, LooksLikeTheYardstick) {
       theirs.add(double(mean(clean->image.at(x, y))));
     }
   const Blocks a = blocks_of(film, kBlock), b = blocks_of(reference, kBlock);
-  // Noise of the clean picture: that of its 512-sample sister is 0.0018 per value and 4096 stratified samples have at most
-  // 0.0018 / sqrt(8). Its stated bias is 0.0002 for the mean, and ours at half a voxel is within 1 %.
+  // Noise of the clean picture: that of its 512-sample sister is 0.0018 per value and 4096 stratified samples have at
+  // most 0.0018 / sqrt(8). Its stated bias is 0.0002 for the mean, and ours at half a voxel is within 1 %.
   const double clean_noise = 0.0018 / std::sqrt(8.0) / kBlock, bound = sidak_z(1e-3, static_cast<int>(a.mean.size()));
   double largest = 0;
   for (std::size_t k = 0; k < a.mean.size(); ++k) {
     const double allowed_bias = 0.01 * b.mean[k] + 2e-5;
-    const double z = std::max(0.0, std::abs(a.mean[k] - b.mean[k]) - allowed_bias) / std::sqrt(a.variance[k] + clean_noise * clean_noise);
+    const double z = std::max(0.0, std::abs(a.mean[k] - b.mean[k]) - allowed_bias) /
+                     std::sqrt(a.variance[k] + clean_noise * clean_noise);
     largest = std::max(largest, z);
     EXPECT_LT(z, bound) << "value " << k << ": " << a.mean[k] << " and " << b.mean[k];
   }
   EXPECT_NEAR(ours.mean() / theirs.mean(), 1, 0.01);
-  std::printf("mean %.6f, yardstick %.6f; largest |z| of %zu blocks beyond the bias: %.2f (allowed %.2f)\n", ours.mean(), theirs.mean(),
-              a.mean.size(), largest, bound);
+  std::printf("mean %.6f, yardstick %.6f; largest |z| of %zu blocks beyond the bias: %.2f (allowed %.2f)\n",
+              ours.mean(), theirs.mean(), a.mean.size(), largest, bound);
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 
 namespace brume {
 
-inline Medium medium_of(std::shared_ptr<const Shader> shader, std::shared_ptr<const Shape> shape, Color sigma_s, Color sigma_t,
-                        Color emission = {}) {
+inline Medium medium_of(std::shared_ptr<const Shader> shader, std::shared_ptr<const Shape> shape, Color sigma_s,
+                        Color sigma_t, Color emission = {}) {
   Medium m;
   m.traits = shader->traits();
   m.shader = std::move(shader);
@@ -24,22 +24,25 @@ inline Medium medium_of(std::shared_ptr<const Shader> shader, std::shared_ptr<co
 
 /// Homogeneous, in an axis-aligned box.
 inline Medium homogeneous_box(Vec3d low, Vec3d high, Color sigma_s, Color sigma_t, Color emission = {}) {
-  return medium_of(std::make_shared<ConstantShader>(), std::make_shared<BoxShape>(low, high), sigma_s, sigma_t, emission);
+  return medium_of(std::make_shared<ConstantShader>(), std::make_shared<BoxShape>(low, high), sigma_s, sigma_t,
+                   emission);
 }
 
 /// A density of the z coordinate, in a box; marched.
 inline Medium profile_box(std::function<float(float)> density_of_z, Vec3d low, Vec3d high, Color sigma_s, Color sigma_t,
                           Color emission = {}) {
-  return medium_of(std::make_shared<ProfileShader>(Affine{}, 0.1f, [f = std::move(density_of_z)](Vec3 p) { return f(p.z); }),
-                   std::make_shared<BoxShape>(low, high), sigma_s, sigma_t, emission);
+  return medium_of(
+      std::make_shared<ProfileShader>(Affine{}, 0.1f, [f = std::move(density_of_z)](Vec3 p) { return f(p.z); }),
+      std::make_shared<BoxShape>(low, high), sigma_s, sigma_t, emission);
 }
 
 /// A ray up the z axis from (0, 0, z).
-inline Ray ray_along_z(float z = 0, Interval span = {0, std::numeric_limits<float>::infinity()}) { return {{0, 0, z}, {0, 0, 1}, span}; }
+inline Ray ray_along_z(float z = 0, Interval span = {0, std::numeric_limits<float>::infinity()}) {
+  return {{0, 0, z}, {0, 0, 1}, span};
+}
 
 /// A record that is ready to be sampled, with the arena that holds it.
-template <int C>
-class RecordedRay {
+template <int C> class RecordedRay {
  public:
   RecordedRay(std::vector<Medium> media, const Ray& ray, float step, float offset = 0.5f, Color throughput = Color(1))
       : media_(std::move(media)), scope_(arena_) {

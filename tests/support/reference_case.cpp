@@ -35,7 +35,9 @@ ReferenceKind kind_of(const Json& object) {
   return kind;
 }
 
-Vec3d vec_of(const Json& value) { return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()}; }
+Vec3d vec_of(const Json& value) {
+  return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
+}
 
 /// Three channels; a single number stands for three equal ones.
 Channels channels_of(const Json& value) {
@@ -44,17 +46,20 @@ Channels channels_of(const Json& value) {
 }
 
 ReferenceRay ray_of(const Json& value) {
-  return {vec_of(value.at("origin")), vec_of(value.at("direction")), value.at("tmin").get<double>(), value.at("tmax").get<double>()};
+  return {vec_of(value.at("origin")), vec_of(value.at("direction")), value.at("tmin").get<double>(),
+          value.at("tmax").get<double>()};
 }
 
 bool given(const Json& object, const char* key) { return object.contains(key) && !object.at(key).is_null(); }
 
 /// "orders 1..3" and so on from a list of radiances by order: a render with B bounces holds orders 1 to B + 1.
-void add_orders(ReferenceCase& c, const ReferenceRay& ray, const Json& expected, double relative_error, const std::string& where) {
+void add_orders(ReferenceCase& c, const ReferenceRay& ray, const Json& expected, double relative_error,
+                const std::string& where) {
   if (given(expected, "radiance_by_order")) {
     const auto by_order = expected.at("radiance_by_order").get<std::vector<double>>();
     std::vector<double> deviations(by_order.size(), 0.0);
-    if (given(expected, "std_error_by_order")) deviations = expected.at("std_error_by_order").get<std::vector<double>>();
+    if (given(expected, "std_error_by_order"))
+      deviations = expected.at("std_error_by_order").get<std::vector<double>>();
     double sum = 0, variance = 0;
     for (std::size_t k = 0; k < by_order.size(); ++k) {
       sum += by_order[k];
@@ -128,7 +133,8 @@ ReferenceCase case_of(const Json& j) {
   if (given(expected, "rays"))
     for (const Json& view : expected.at("rays")) {
       char where[64];
-      std::snprintf(where, sizeof where, "%s mu %g, ", view.at("side").get<std::string>().c_str(), view.at("mu").get<double>());
+      std::snprintf(where, sizeof where, "%s mu %g, ", view.at("side").get<std::string>().c_str(),
+                    view.at("mu").get<double>());
       add_orders(c, ray_of(view.at("ray")), view, error, where);
     }
   return c;
@@ -145,7 +151,9 @@ Vec3d vec(const ReferenceKind& kind, const char* key) {
 
 }  // namespace
 
-bool ReferenceCase::has_tag(const std::string& tag) const { return std::find(tags.begin(), tags.end(), tag) != tags.end(); }
+bool ReferenceCase::has_tag(const std::string& tag) const {
+  return std::find(tags.begin(), tags.end(), tag) != tags.end();
+}
 
 Result<std::vector<ReferenceCase>> read_reference_cases(const std::string& path) {
   std::ifstream file(path);
@@ -165,8 +173,10 @@ Result<std::vector<ReferenceCase>> read_reference_cases(const std::string& path)
 double reference_density(const ReferenceCase& c, Vec3d x) {
   const ReferenceKind& d = c.density;
   if (d.type == "constant") return 1;
-  if (d.type == "exponential") return std::exp(-(x[static_cast<int>(real(d, "axis"))] - real(d, "y0")) / real(d, "scale_height"));
-  if (d.type == "gaussian") return std::exp(-length_squared(x - vec(d, "center")) / (2 * real(d, "sigma") * real(d, "sigma")));
+  if (d.type == "exponential")
+    return std::exp(-(x[static_cast<int>(real(d, "axis"))] - real(d, "y0")) / real(d, "scale_height"));
+  if (d.type == "gaussian")
+    return std::exp(-length_squared(x - vec(d, "center")) / (2 * real(d, "sigma") * real(d, "sigma")));
   if (d.type == "linear") return real(d, "offset") + dot(vec(d, "gradient"), x);
   if (d.type == "slabs") {
     const auto& edges = d.numbers.at("edges");
@@ -180,7 +190,8 @@ double reference_density(const ReferenceCase& c, Vec3d x) {
     return r >= real(d, "r_inner") && r <= real(d, "r_outer") ? 1 : 0;
   }
   if (d.type == "sinusoid")
-    return 1 + real(d, "amplitude") * std::sin(2 * 3.14159265358979323846 * dot(vec(d, "wavevector"), x) + real(d, "phase"));
+    return 1 + real(d, "amplitude") *
+                   std::sin(2 * 3.14159265358979323846 * dot(vec(d, "wavevector"), x) + real(d, "phase"));
   return std::nan("");
 }
 
@@ -251,7 +262,8 @@ double column_rounding(const ReferenceCase& c, const ReferenceRay& ray) {
 
   // A displacement of every look-up by e changes the integral by at most e times the variation of the density.
   double peak = 0;
-  for (const double t : {span.begin, span.end}) peak = std::max(peak, reference_density(c, ray.origin + ray.direction * t));
+  for (const double t : {span.begin, span.end})
+    peak = std::max(peak, reference_density(c, ray.origin + ray.direction * t));
   const double displacement = 2 * half_ulp(span.end) + 2 * half_ulp(size);
   return length_error * (c.heterogeneous() ? peak : 1.0) + displacement * density_variation(c, ray);
 }
@@ -266,7 +278,8 @@ namespace {
 
 /// Gives `node` all numbers of `kind` under the keys that its table has for them.
 /// @param renamed  keys of the file that have another name in the table
-Result<void> copy_numbers(const ReferenceKind& kind, Node& node, const std::map<std::string, std::string>& renamed = {}) {
+Result<void> copy_numbers(const ReferenceKind& kind, Node& node,
+                          const std::map<std::string, std::string>& renamed = {}) {
   for (const auto& [file_key, numbers] : kind.numbers) {
     const auto other = renamed.find(file_key);
     const std::string key = other == renamed.end() ? file_key : other->second;
@@ -275,7 +288,8 @@ Result<void> copy_numbers(const ReferenceKind& kind, Node& node, const std::map<
     Value value = numbers;
     if (param->type == ParamType::Number) value = numbers.at(0);
     if (param->type == ParamType::Bool) value = numbers.at(0) != 0;
-    if (param->type == ParamType::Choice) value = std::string(1, static_cast<char>('x' + static_cast<int>(numbers.at(0))));
+    if (param->type == ParamType::Choice)
+      value = std::string(1, static_cast<char>('x' + static_cast<int>(numbers.at(0))));
     if (const auto ok = node.set(key, value); !ok) return ok;
   }
   return {};
@@ -346,7 +360,8 @@ Channels ReferenceEstimate::relative_deviation() const {
   return out;
 }
 
-Result<ReferenceProbe> ReferenceProbe::make(const ReferenceCase& c, const ReferenceQuantity& quantity, const ReferenceSettings& settings) {
+Result<ReferenceProbe> ReferenceProbe::make(const ReferenceCase& c, const ReferenceQuantity& quantity,
+                                            const ReferenceSettings& settings) {
   const auto description = describe(c, quantity, settings);
   if (!description) return description.error();
   GridCache grids;
@@ -358,7 +373,8 @@ Result<ReferenceProbe> ReferenceProbe::make(const ReferenceCase& c, const Refere
   probe.integrator_ = make_integrator(probe.scene_->render.integrator);
   probe.arena_ = std::make_unique<Arena>();
   const ReferenceRay& ray = quantity.ray;
-  probe.ray_ = {Vec3(ray.origin - probe.scene_->origin), Vec3(ray.direction),
+  probe.ray_ = {Vec3(ray.origin - probe.scene_->origin),
+                Vec3(ray.direction),
                 {static_cast<float>(ray.tmin), static_cast<float>(ray.tmax)}};
   // The background is where the ray ends at no surface; all media end before tmax in the data.
   if (quantity.background) probe.ray_.span.end = std::numeric_limits<float>::infinity();
@@ -384,7 +400,8 @@ struct Accumulator {
   ReferenceEstimate estimate(std::uint64_t non_finite) const {
     ReferenceEstimate out{mean, {}, static_cast<std::uint64_t>(count), non_finite};
     for (std::size_t k = 0; k < 3; ++k)
-      out.standard_error[k] = count > 1 ? std::sqrt(m2[k] / (count * (count - 1))) : std::numeric_limits<double>::infinity();
+      out.standard_error[k] =
+          count > 1 ? std::sqrt(m2[k] / (count * (count - 1))) : std::numeric_limits<double>::infinity();
     return out;
   }
 };
@@ -400,7 +417,8 @@ ReferenceEstimate ReferenceProbe::radiance(std::uint64_t samples) {
     bool finite = true;
     for (int p = 0; p < passes_; ++p) {
       // A sampler counts 2^32 passes of a pixel; enough for any run.
-      const Sampler sampler(scene_->render.sampler, scene_->render.seed, 0, static_cast<std::uint32_t>(i) * passes_ + p);
+      const Sampler sampler(scene_->render.sampler, scene_->render.seed, 0,
+                            static_cast<std::uint32_t>(i) * passes_ + p);
       SampleContext context{*scene_, sampler, *arena_, statistics};
       const Color c = integrator_->radiance(ray_, context);
       finite &= is_finite(c);
@@ -434,12 +452,14 @@ ReferenceEstimate ReferenceProbe::optical_depth(std::uint64_t offsets) {
 std::string CaseResult::to_string() const {
   char text[512];
   std::snprintf(text, sizeof text,
-                "%-34s %-24s %-12s %c  expected %.7g  mean %.7g +- %.2g (%.3f %%)  z %+.2f  allowed %.3g = %.3g noise + %.3g float + %.3g "
+                "%-34s %-24s %-12s %c  expected %.7g  mean %.7g +- %.2g (%.3f %%)  z %+.2f  allowed %.3g = %.3g noise "
+                "+ %.3g float + %.3g "
                 "reference + %.3g bias  %llu samples%s%s",
                 id.c_str(), quantity.c_str(), mode.c_str(), "RGB"[channel], expected, mean, standard_error,
-                expected != 0 ? 100 * standard_error / std::abs(expected) : 0.0, z, tolerance.total(), tolerance.statistical,
-                tolerance.floating, tolerance.reference, tolerance.bias, static_cast<unsigned long long>(samples),
-                non_finite ? "  NOT FINITE: " : "", non_finite ? std::to_string(non_finite).c_str() : "");
+                expected != 0 ? 100 * standard_error / std::abs(expected) : 0.0, z, tolerance.total(),
+                tolerance.statistical, tolerance.floating, tolerance.reference, tolerance.bias,
+                static_cast<unsigned long long>(samples), non_finite ? "  NOT FINITE: " : "",
+                non_finite ? std::to_string(non_finite).c_str() : "");
   return text;
 }
 

@@ -33,13 +33,13 @@ struct ReferenceKind {
 
 /// One thing to measure. Values are radiances except for "optical_depth".
 struct ReferenceQuantity {
-  std::string name;   ///< "optical_depth", "emission", "order 1", "orders 1..4", "all orders", "... + background"
+  std::string name;  ///< "optical_depth", "emission", "order 1", "orders 1..4", "all orders", "... + background"
   ReferenceRay ray;
   Channels expected = {};
-  double reference_error = 0;  ///< of the expected value, relative ...
+  double reference_error = 0;      ///< of the expected value, relative ...
   double reference_deviation = 0;  ///< ... or, where it is a Monte Carlo result, its standard error
-  int bounces = 0;             ///< scattered rays that it takes
-  bool background = false;     ///< the environment is seen through the medium
+  int bounces = 0;                 ///< scattered rays that it takes
+  bool background = false;         ///< the environment is seen through the medium
 };
 
 /// Scattered rays without limit, as far as the parameter goes.
@@ -48,13 +48,13 @@ inline constexpr int kUnlimitedBounces = 100000;
 struct ReferenceCase {
   std::string id, description;
   std::vector<std::string> tags;
-  ReferenceKind bounds;   // "sphere" or "box"
+  ReferenceKind bounds;  // "sphere" or "box"
   ReferenceKind density;
   Channels sigma_s = {}, sigma_a = {}, emission = {};
-  ReferenceKind light;    // empty type: none
+  ReferenceKind light;  // empty type: none
   double phase_g = 0;
   std::vector<ReferenceQuantity> quantities;
-  std::string property;   ///< instead of a right number: what must hold
+  std::string property;  ///< instead of a right number: what must hold
 
   bool has_tag(const std::string& tag) const;
   bool heterogeneous() const { return density.type != "constant"; }
@@ -97,7 +97,7 @@ Result<Node> describe(const ReferenceCase& c, const ReferenceQuantity& quantity,
 
 struct ReferenceEstimate {
   Channels mean = {}, standard_error = {};
-  std::uint64_t samples = 0;     ///< finite ones
+  std::uint64_t samples = 0;  ///< finite ones
   std::uint64_t non_finite = 0;
 
   /// Standard deviation of a single sample over the mean; 0 where the mean is 0.
@@ -107,7 +107,8 @@ struct ReferenceEstimate {
 /// A quantity of a case, ready to be measured. Not to be shared between threads.
 class ReferenceProbe {
  public:
-  static Result<ReferenceProbe> make(const ReferenceCase& c, const ReferenceQuantity& quantity, const ReferenceSettings& settings);
+  static Result<ReferenceProbe> make(const ReferenceCase& c, const ReferenceQuantity& quantity,
+                                     const ReferenceSettings& settings);
 
   /// Radiance along the ray: Welford mean of `samples` samples. In MIS with a single light sample the techniques take
   /// turns between passes, so a sample is then the mean of two passes: halves of one estimator, not two estimators.
@@ -142,7 +143,7 @@ struct CaseResult {
   std::string id, quantity, mode;
   int channel = 0;
   double expected = 0, mean = 0, standard_error = 0;
-  double z = 0;            ///< what the allowances other than noise leave of the difference, in standard errors
+  double z = 0;  ///< what the allowances other than noise leave of the difference, in standard errors
   ReferenceTolerance tolerance;
   std::uint64_t samples = 0, non_finite = 0;
   bool passed = false;

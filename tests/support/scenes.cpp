@@ -9,8 +9,7 @@
 namespace brume {
 namespace {
 
-template <class T>
-T must(Result<T> result) {
+template <class T> T must(Result<T> result) {
   if (!result.ok()) {
     std::fprintf(stderr, "a test's scene was refused: %s\n", result.error().to_string().c_str());
     std::abort();

@@ -33,7 +33,8 @@ double differing_share(const Image8& a, const Image8& b, const Region& rendered,
       ++total;
       const bool same = std::memcmp(a.at(x, y), b.at(x, y), 3) == 0;
       differing += !same;
-      for (int c = 0; c < 3; ++c) marked.at(x, y)[c] = same ? static_cast<std::uint8_t>(a.at(x, y)[c] / 3) : (c == 0 ? 255 : 40);
+      for (int c = 0; c < 3; ++c)
+        marked.at(x, y)[c] = same ? static_cast<std::uint8_t>(a.at(x, y)[c] / 3) : (c == 0 ? 255 : 40);
     }
   return total > 0 ? static_cast<double>(differing) / static_cast<double>(total) : 0;
 }
@@ -50,17 +51,21 @@ testing::AssertionResult matches_baseline(const Image8& picture, const std::stri
     return written ? testing::AssertionSuccess() : testing::AssertionFailure() << written.error().to_string();
   }
 
-  const auto keep = [&] { static_cast<void>(write_png(output + ".png", cropped(picture, {0, 0, picture.width, picture.height})).ok()); };
+  const auto keep = [&] {
+    static_cast<void>(write_png(output + ".png", cropped(picture, {0, 0, picture.width, picture.height})).ok());
+  };
   const auto stored = read_png(baseline);
   if (!stored) {
     keep();
-    return testing::AssertionFailure() << stored.error().to_string() << "; tests/run --update-baselines makes it; the picture is " << output << ".png";
+    return testing::AssertionFailure() << stored.error().to_string()
+                                       << "; tests/run --update-baselines makes it; the picture is " << output
+                                       << ".png";
   }
   const Image8& expected = stored->image;
   if (expected.width != picture.width || expected.height != picture.height) {
     keep();
-    return testing::AssertionFailure() << "the stored picture is " << expected.width << 'x' << expected.height << ", this one "
-                                       << picture.width << 'x' << picture.height;
+    return testing::AssertionFailure() << "the stored picture is " << expected.width << 'x' << expected.height
+                                       << ", this one " << picture.width << 'x' << picture.height;
   }
 
   Image8 difference(picture.width, picture.height, 3);
@@ -72,13 +77,15 @@ testing::AssertionResult matches_baseline(const Image8& picture, const std::stri
     flip_mean = seen->mean;
     const Image8 map = heat_map(*seen);
     for (int y = 0; y < rendered.height; ++y)
-      for (int x = 0; x < rendered.width; ++x) std::memcpy(difference.at(rendered.x + x, rendered.y + y), map.at(x, y), 3);
+      for (int x = 0; x < rendered.width; ++x)
+        std::memcpy(difference.at(rendered.x + x, rendered.y + y), map.at(x, y), 3);
   }
   if (flip_mean <= kMaxFlip && share <= kMaxDifferingShare) return testing::AssertionSuccess();
   keep();
   static_cast<void>(write_png(output + "_difference.png", difference).ok());
-  return testing::AssertionFailure() << "mean FLIP inside the picture " << flip_mean << " (at most " << kMaxFlip << "), pixels that differ outside "
-                                     << 100 * share << " % (at most " << 100 * kMaxDifferingShare << " %); see " << output << "_difference.png";
+  return testing::AssertionFailure() << "mean FLIP inside the picture " << flip_mean << " (at most " << kMaxFlip
+                                     << "), pixels that differ outside " << 100 * share << " % (at most "
+                                     << 100 * kMaxDifferingShare << " %); see " << output << "_difference.png";
 }
 
 }  // namespace brume

@@ -57,8 +57,7 @@ class AppFixture : public testing::Test {
     if (!session_->scene()) return true;  // nothing to render, or nothing that can be
     if (!session_->problem().empty()) return true;
     const auto picture = session_->picture();
-    return session_->up_to_date() &&
-           (picture->finished || (samples_ == kEndless && picture->divisor == 1));
+    return session_->up_to_date() && (picture->finished || (samples_ == kEndless && picture->divisor == 1));
   }
 
   /// Mean of all channels of the picture that is shown.

@@ -1,7 +1,7 @@
 // Every view and panel of the user interface as a picture, compared with tests/ui/baselines.
-#include "tests/ui/app_fixture.h"
 #include "renderer/core/simd.h"
 #include "tests/support/snapshot.h"
+#include "tests/ui/app_fixture.h"
 
 namespace brume {
 namespace {
@@ -25,7 +25,8 @@ class AppSnapshot : public AppFixture {
     Region rendered;
     if (const ui::ItemRecord* picture = robot().last_drawn("View/picture")) {
       const auto& r = picture->rect;
-      rendered = {static_cast<int>(r.min.x), static_cast<int>(r.min.y), static_cast<int>(r.max.x - r.min.x), static_cast<int>(r.max.y - r.min.y)};
+      rendered = {static_cast<int>(r.min.x), static_cast<int>(r.min.y), static_cast<int>(r.max.x - r.min.x),
+                  static_cast<int>(r.max.y - r.min.y)};
     }
     return matches_baseline(image, name, rendered);
   }

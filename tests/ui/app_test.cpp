@@ -1,10 +1,10 @@
 // The application as a user works it: clicks, drags and keys, then the state and the picture.
 #include <fstream>
 
-#include "tests/ui/app_fixture.h"
 #include "renderer/film/image_io.h"
 #include "renderer/integrators/registry.h"
 #include "renderer/scene_io/scene_file.h"
+#include "tests/ui/app_fixture.h"
 
 namespace brume {
 namespace {
@@ -146,7 +146,8 @@ TEST_F(App, VolumeParametersComeFromTheTable) {
   EXPECT_EQ(session().description().list("volumes")[0].text("grid"), "temperature");
   EXPECT_TRUE(session().problem().empty()) << session().problem();
   EXPECT_TRUE(done(robot().hover("Inspector/Density scale")));
-  EXPECT_NE(robot().tooltip().find("1/world unit"), std::string::npos) << "the tooltip names the unit: " << robot().tooltip();
+  EXPECT_NE(robot().tooltip().find("1/world unit"), std::string::npos)
+      << "the tooltip names the unit: " << robot().tooltip();
 }
 
 TEST_F(App, ChangingTheShaderKeepsWhatBothHave) {
@@ -312,7 +313,8 @@ TEST_F(App, PauseKeepsTheSamplesAndGoesOn) {
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   EXPECT_EQ(session().picture(), held);
   robot().press_key(ui::Key::Space);
-  for (int i = 0; i < 2000 && session().picture() == held; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  for (int i = 0; i < 2000 && session().picture() == held; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
   ASSERT_NE(session().picture(), held);
   EXPECT_GT(session().picture()->statistics.samples_per_pixel, held->statistics.samples_per_pixel);
 }

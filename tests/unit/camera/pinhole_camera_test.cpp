@@ -39,7 +39,8 @@ TEST(PinholeCamera, DirectionsAreUnitAllOverTheFilm) {
   const PinholeCamera camera({3, 2, 1}, {0, 0, 0}, {0.3f, 0.2f, 1}, 100);
   for (int i = 0; i <= 20; ++i)
     for (int j = 0; j <= 20; ++j)
-      EXPECT_NEAR(length(camera.ray(static_cast<float>(i) / 20, static_cast<float>(j) / 20, kAspect).direction), 1, 2e-7f);
+      EXPECT_NEAR(length(camera.ray(static_cast<float>(i) / 20, static_cast<float>(j) / 20, kAspect).direction), 1,
+                  2e-7f);
 }
 
 TEST(PinholeCamera, UpNeedNotBeUnitNorPerpendicular) {

@@ -10,10 +10,13 @@
 namespace brume {
 namespace {
 
-Vec3 random_direction(std::uint32_t i) { return uniform_sphere(Sampler(SamplerKind::Independent, 5, 0, i).u2(Decision::Pixel)); }
+Vec3 random_direction(std::uint32_t i) {
+  return uniform_sphere(Sampler(SamplerKind::Independent, 5, 0, i).u2(Decision::Pixel));
+}
 
 TEST(Frame, IsOrthonormalAndRightHandedForEveryDirection) {
-  std::vector<Vec3> directions{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}, normalize(Vec3(1e-4f, 0, -1)), normalize(Vec3(0, 1e-20f, -1))};
+  std::vector<Vec3> directions{
+      {0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}, normalize(Vec3(1e-4f, 0, -1)), normalize(Vec3(0, 1e-20f, -1))};
   for (std::uint32_t i = 0; i < 1000; ++i) directions.push_back(random_direction(i));
   for (const Vec3 n : directions) {
     const Frame f(n);

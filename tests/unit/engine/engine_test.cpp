@@ -43,8 +43,7 @@ Image batch(const Scene& scene, int samples, int threads, int width = kWidth, in
 }
 
 /// Waits until the condition holds; false when it takes unreasonably long.
-template <class Condition>
-bool eventually(const Condition& condition) {
+template <class Condition> bool eventually(const Condition& condition) {
   const auto give_up = std::chrono::steady_clock::now() + kSlow * 60s;
   while (!condition()) {
     if (std::chrono::steady_clock::now() > give_up) return false;

@@ -126,13 +126,15 @@ TEST(Shape, PointsOfTheIntervalAreInsideAndPointsBeyondAreNot) {
     for (const bool box : {true, false}) {
       const auto depth = [&](float t) {  // > 0 inside
         const Vec3 p = ray.at(t);
-        return box ? std::min({1 - std::abs(p.x), 2 - std::abs(p.y), 3 - std::abs(p.z)}) : 2 - length(p - Vec3(1, 2, 3));
+        return box ? std::min({1 - std::abs(p.x), 2 - std::abs(p.y), 3 - std::abs(p.z)})
+                   : 2 - length(p - Vec3(1, 2, 3));
       };
       const Interval found = inside(box ? static_cast<const Shape&>(kBox) : kBall, ray);
       for (int k = 0; k < 20; ++k) {
         const float t = 12 * (static_cast<float>(k) + 0.37f) / 20;
         if (std::abs(depth(t)) < 1e-5f) continue;  // rounding decides
-        ASSERT_EQ(depth(t) > 0, t > found.begin && t < found.end) << (box ? "box" : "sphere") << ", ray " << i << ", t = " << t;
+        ASSERT_EQ(depth(t) > 0, t > found.begin && t < found.end)
+            << (box ? "box" : "sphere") << ", ray " << i << ", t = " << t;
       }
       met += found.empty() ? 0 : 1;
     }

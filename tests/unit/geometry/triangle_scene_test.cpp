@@ -25,7 +25,8 @@ TEST(TriangleScene, CubeIsHitFromAllSidesAtItsFace) {
       for (int z = -1; z <= 1; ++z) {
         if (x == 0 && y == 0 && z == 0) continue;
         // Aimed a little past the centre, so that no ray runs along an edge.
-        const Vec3 from = Vec3(5.0f * static_cast<float>(x), 5.0f * static_cast<float>(y), 5.0f * static_cast<float>(z));
+        const Vec3 from =
+            Vec3(5.0f * static_cast<float>(x), 5.0f * static_cast<float>(y), 5.0f * static_cast<float>(z));
         const Vec3 target{0.11f, 0.07f, -0.05f};
         const Ray ray{from, normalize(target - from)};
         const auto hit = (*scene)->intersect(ray);

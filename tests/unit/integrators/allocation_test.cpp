@@ -20,7 +20,8 @@ std::atomic<long> g_allocations = 0;
 
 void* counted(std::size_t size, std::size_t alignment) {
   if (g_counting) ++g_allocations;
-  void* p = alignment == 0 ? std::malloc(size > 0 ? size : 1) : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  void* p = alignment == 0 ? std::malloc(size > 0 ? size : 1)
+                           : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
   if (!p) throw std::bad_alloc();
   return p;
 }
@@ -29,8 +30,12 @@ void* counted(std::size_t size, std::size_t alignment) {
 
 void* operator new(std::size_t size) { return counted(size, 0); }
 void* operator new[](std::size_t size) { return counted(size, 0); }
-void* operator new(std::size_t size, std::align_val_t alignment) { return counted(size, static_cast<std::size_t>(alignment)); }
-void* operator new[](std::size_t size, std::align_val_t alignment) { return counted(size, static_cast<std::size_t>(alignment)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
 void operator delete(void* p) noexcept { std::free(p); }
 void operator delete[](void* p) noexcept { std::free(p); }
 void operator delete(void* p, std::size_t) noexcept { std::free(p); }
@@ -106,7 +111,8 @@ TEST(PixelSample, AWholePassAllocatesNoMoreThanItsBookkeeping) {
   g_counting = true;
   render_pass(*scene, *integrator, 2, film, pool, {});
   g_counting = false;
-  // The closure of the loop, and now and then a block of an arena whose thread had not met such a ray: not 4096 samples.
+  // The closure of the loop, and now and then a block of an arena whose thread had not met such a ray: not 4096
+  // samples.
   EXPECT_LE(g_allocations, 8);
 #else
   GTEST_SKIP() << "sanitizers count allocations in their own way";
@@ -122,7 +128,8 @@ TEST(PixelSample, MemoryDoesNotGrowWithTheNumberOfBounces) {
     for (std::uint32_t p = 0; p < 400; ++p) {
       const Sampler sampler(SamplerKind::Independent, 1, p, 0);
       SampleContext context{*scene, sampler, arena, statistics};
-      static_cast<void>(integrator->radiance(scene->camera.ray(static_cast<float>(p % 20) / 20, static_cast<float>(p / 20) / 20, 1), context));
+      static_cast<void>(integrator->radiance(
+          scene->camera.ray(static_cast<float>(p % 20) / 20, static_cast<float>(p / 20) / 20, 1), context));
       EXPECT_EQ(arena.used_bytes(), 0u);
     }
     rays = statistics.rays;

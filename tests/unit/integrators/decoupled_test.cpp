@@ -20,8 +20,8 @@ Node independent_scene(int seed = 1) {
   return scene;
 }
 
-void add_box(Node& scene, const std::string& low, const std::string& high, const std::string& sigma_s, const std::string& sigma_a,
-             const std::string& shader = "homogeneous") {
+void add_box(Node& scene, const std::string& low, const std::string& high, const std::string& sigma_s,
+             const std::string& sigma_a, const std::string& shader = "homogeneous") {
   Node& v = add_volume(scene, shader);
   set(v, "bounds.min", low);
   set(v, "bounds.max", high);
@@ -29,7 +29,9 @@ void add_box(Node& scene, const std::string& low, const std::string& high, const
   set(v, "sigma_a", sigma_a);
 }
 
-void add_environment(Node& scene, const std::string& radiance) { set(add_light(scene, "environment"), "radiance", radiance); }
+void add_environment(Node& scene, const std::string& radiance) {
+  set(add_light(scene, "environment"), "radiance", radiance);
+}
 
 void set_g(Node& scene, std::size_t volume, const std::string& g) {
   set(scene, "volumes." + std::to_string(volume) + ".phase.type", "henyey_greenstein");
@@ -38,7 +40,9 @@ void set_g(Node& scene, std::size_t volume, const std::string& g) {
 
 Ray up_from(float z) { return {{0.1f, 0.2f, z}, {0, 0, 1}}; }
 
-double henyey_greenstein(double g, double cosine) { return kInv4PiD * (1 - g * g) / std::pow(1 + g * g - 2 * g * cosine, 1.5); }
+double henyey_greenstein(double g, double cosine) {
+  return kInv4PiD * (1 - g * g) / std::pow(1 + g * g - 2 * g * cosine, 1.5);
+}
 
 // ---- Colour ---------------------------------------------------------------------------------------------------------
 
@@ -54,7 +58,8 @@ TEST(Decoupled, ExtinctionsOf1To4To16AreRightInEveryChannel) {
     const RayEstimate e = estimate(*committed(scene), up_from(-1), 100000);
     for (int c = 0; c < 3; ++c) {
       const double tau = std::pow(4.0, c), expected = 0.9 * kInv4PiD * 2 * 0.5 * -std::expm1(-2 * tau);
-      EXPECT_LT(std::abs(z_score(e, expected, c)), bound(9)) << mode << ", channel " << c << ": " << e.mean(c) << " instead of " << expected;
+      EXPECT_LT(std::abs(z_score(e, expected, c)), bound(9))
+          << mode << ", channel " << c << ": " << e.mean(c) << " instead of " << expected;
       EXPECT_LT(e.standard_error(c), 0.01 * expected);
     }
   }
@@ -72,7 +77,8 @@ TEST(Decoupled, EveryChannelOfAChromaticSceneIsTheGreySceneOfItsCoefficients) {
     add_environment(scene, "0.5,0.5,0.5");
     return committed(scene);
   };
-  const std::string scattering[] = {"0.3,0.3,0.3", "1.8,1.8,1.8", "4.6,4.6,4.6"}, absorption[] = {"0.1,0.1,0.1", "0.2,0.2,0.2", "0.4,0.4,0.4"};
+  const std::string scattering[] = {"0.3,0.3,0.3", "1.8,1.8,1.8", "4.6,4.6,4.6"},
+                    absorption[] = {"0.1,0.1,0.1", "0.2,0.2,0.2", "0.4,0.4,0.4"};
   for (const char* mode : kModes) {
     const auto colourful = scene_of("0.3,1.8,4.6", "0.1,0.2,0.4", mode, 1);
     ASSERT_EQ(colourful->needs.channels, 3);
@@ -81,7 +87,8 @@ TEST(Decoupled, EveryChannelOfAChromaticSceneIsTheGreySceneOfItsCoefficients) {
       const auto grey = scene_of(scattering[c], absorption[c], mode, 2 + c);
       ASSERT_EQ(grey->needs.channels, 1);
       const RayEstimate alone = estimate(*grey, up_from(-1), 40000, 2);
-      EXPECT_LT(std::abs(z_score(together, alone, c)), bound(9)) << mode << ", channel " << c << ": " << together.mean(c) << " and " << alone.mean(c);
+      EXPECT_LT(std::abs(z_score(together, alone, c)), bound(9))
+          << mode << ", channel " << c << ": " << together.mean(c) << " and " << alone.mean(c);
       EXPECT_LT(together.standard_error(c), 0.05 * together.mean(c));
     }
   }
@@ -162,7 +169,8 @@ TEST(Decoupled, TwoMediaOfHalfTheDensityAreOneOfTheWhole) {
     for (const char* bounces : {"0", "2"}) {
       const RayEstimate one = estimate(*scene_of(1, mode, bounces, 1), up_from(-1), 30000, 2);
       const RayEstimate two = estimate(*scene_of(2, mode, bounces, 2), up_from(-1), 30000, 2);
-      for (int c = 0; c < 3; ++c) EXPECT_LT(std::abs(z_score(one, two, c)), bound(18)) << mode << ", " << bounces << " bounces, channel " << c;
+      for (int c = 0; c < 3; ++c)
+        EXPECT_LT(std::abs(z_score(one, two, c)), bound(18)) << mode << ", " << bounces << " bounces, channel " << c;
     }
 }
 
@@ -218,7 +226,8 @@ TEST(Decoupled, ACameraMayBeAnywhere) {
       set(v, "sigma_a", "1.5,1.5,1.5");
       set(v, "emission_scale", "3");
       const auto s = committed(scene);
-      for (const float z : {-5.0f, -1.5f, -1.0f, std::nextafter(-1.0f, 0.0f), -0.5f, 0.0f, 0.5f, std::nextafter(1.0f, 0.0f), 1.0f, 1.5f, 5.0f}) {
+      for (const float z : {-5.0f, -1.5f, -1.0f, std::nextafter(-1.0f, 0.0f), -0.5f, 0.0f, 0.5f,
+                            std::nextafter(1.0f, 0.0f), 1.0f, 1.5f, 5.0f}) {
         const RayEstimate e = estimate(*s, {{0, 0, z}, {0, 0, 1}}, 4);
         const double inside = std::clamp(1 - double(z), 0.0, 2.0), expected = 3 / 1.5 * -std::expm1(-1.5 * inside);
         EXPECT_EQ(e.non_finite, 0u);
@@ -334,7 +343,8 @@ TEST(Decoupled, RouletteDoesNotChangeTheMean) {
   };
   const RayEstimate on = with_roulette("true", 1), off = with_roulette("false", 2);
   EXPECT_LT(on.statistics.rays, off.statistics.rays);
-  for (int c = 0; c < 3; ++c) EXPECT_LT(std::abs(z_score(on, off, c)), bound(3)) << on.mean(c) << " and " << off.mean(c);
+  for (int c = 0; c < 3; ++c)
+    EXPECT_LT(std::abs(z_score(on, off, c)), bound(3)) << on.mean(c) << " and " << off.mean(c);
 }
 
 }  // namespace

@@ -112,14 +112,15 @@ TEST(DirectLight, AirlightOfAThinFogIsExactInOneSample) {
   for (const double sigma : {1e-8, 1e-12})
     for (const double D : {0.1, 1.0, 20.0}) {
       const RayEstimate e = estimate(*committed(fog(sigma, D, "equi_angular")), kRay, 2000);
-      const double expected = sigma * kInv4PiD * 2 * std::atan(5 / D) / D;  // optical depths of 1e-7 and less are left out
+      const double expected =
+          sigma * kInv4PiD * 2 * std::atan(5 / D) / D;  // optical depths of 1e-7 and less are left out
       EXPECT_NEAR(e.mean() / expected, 1, 1e-5) << "sigma " << sigma << ", D " << D;
       EXPECT_LT(e.relative_deviation(), 1e-5) << "sigma " << sigma << ", D " << D;
     }
 }
 
-// A7 and O7 of the catalogue: a one-sided square of side S at height h over a thin fog. The light point comes first, and
-// the angles are about that very point; about the centre of the square the noise would be 3.9, 28 and 65.
+// A7 and O7 of the catalogue: a one-sided square of side S at height h over a thin fog. The light point comes first,
+// and the angles are about that very point; about the centre of the square the noise would be 3.9, 28 and 65.
 TEST(DirectLight, NoiseUnderALargeNearQuadIsThatOfThePointFirstOrder) {
   for (const auto& [side, noise] : {std::pair(1.0, 1.2), std::pair(4.0, 2.7), std::pair(8.0, 3.9)}) {
     Node scene = fog(1e-4, 1, "equi_angular");
@@ -145,7 +146,9 @@ TEST(DirectLight, AnyNumberOfLightSamplesInAnyModeGivesTheSameLight) {
         set(scene, "render.seed", std::to_string(++comparisons));
         // Pairs of passes: in MIS the odd sample takes turns between the techniques.
         const RayEstimate e = estimate(*committed(scene), kRay, 40000, 2);
-        EXPECT_LT(std::abs(z_score(e, theory.mean())), bound(36)) << mode << ", " << heuristic << ", " << samples << " samples: " << e.mean() << " instead of " << theory.mean();
+        EXPECT_LT(std::abs(z_score(e, theory.mean())), bound(36))
+            << mode << ", " << heuristic << ", " << samples << " samples: " << e.mean() << " instead of "
+            << theory.mean();
         EXPECT_LT(e.standard_error(), 0.01 * theory.mean());
       }
 }
@@ -160,8 +163,8 @@ TEST(DirectLight, MoreLightSamplesAreStratifiedAndReduceTheNoiseFasterThanTheirN
   EXPECT_LT(noise("mis", "16"), 0.6 * noise("mis", "2") / std::sqrt(8.0));
 }
 
-// With one light sample MIS uses the other technique in every other pass, and pixels differ in which they begin with, so
-// that a single pass is right on average over the pixels.
+// With one light sample MIS uses the other technique in every other pass, and pixels differ in which they begin with,
+// so that a single pass is right on average over the pixels.
 TEST(DirectLight, EverySinglePassOfMisIsUnbiasedOverThePixels) {
   const FogTheory theory{0.5, 0.7};
   for (const char* sampler : {"independent", "sobol"}) {
@@ -178,7 +181,8 @@ TEST(DirectLight, EverySinglePassOfMisIsUnbiasedOverThePixels) {
         SampleContext context{*s, random, arena, statistics};
         mean.add(double(integrator->radiance(kRay, context).r));
       }
-      EXPECT_LT(std::abs(mean.mean() - theory.mean()) / mean.standard_error(), bound(6)) << sampler << ", pass " << pass;
+      EXPECT_LT(std::abs(mean.mean() - theory.mean()) / mean.standard_error(), bound(6))
+          << sampler << ", pass " << pass;
     }
   }
 }
@@ -193,7 +197,8 @@ TEST(DirectLight, SobolAndIndependentNumbersGiveTheSameLightAndSobolLessNoise) {
       set(scene, "render.sampler", k == 0 ? "independent" : "sobol");
       const auto s = committed(scene);
       for (std::uint32_t pixel = 0; pixel < 400; ++pixel) of_pixels[k].add(estimate(*s, kRay, 128, 1, pixel).mean());
-      EXPECT_LT(std::abs(of_pixels[k].mean() - theory.mean()) / of_pixels[k].standard_error(), bound(6)) << mode << ' ' << k;
+      EXPECT_LT(std::abs(of_pixels[k].mean() - theory.mean()) / of_pixels[k].standard_error(), bound(6))
+          << mode << ' ' << k;
     }
     // 400 pixels know a variance to 7 %: a quarter off is no chance.
     EXPECT_LT(of_pixels[1].variance(), 0.75 * of_pixels[0].variance()) << mode;
@@ -215,7 +220,8 @@ TEST(DirectLight, PickingOneLightGivesTheLightOfAll) {
   for (const char* samples : {"1", "3"}) {
     set(scene, "render.light_samples", samples);
     const RayEstimate one = estimate(*committed(scene), kRay, 60000, 2);
-    for (int c = 0; c < 3; ++c) EXPECT_LT(std::abs(z_score(all, one, c)), bound(6)) << samples << " samples, channel " << c;
+    for (int c = 0; c < 3; ++c)
+      EXPECT_LT(std::abs(z_score(all, one, c)), bound(6)) << samples << " samples, channel " << c;
   }
 }
 

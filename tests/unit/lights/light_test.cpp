@@ -58,13 +58,17 @@ TEST(QuadLight, PointsAreUniformOverTheArea) {
     const float u = dot(p, kEdgeU) / length_squared(kEdgeU), v = dot(p, kEdgeV) / length_squared(kEdgeV);
     ASSERT_NEAR(dot(p, cross(kEdgeU, kEdgeV)), 0, 2e-5f) << "not in the plane";
     ASSERT_TRUE(u >= -1e-6f && u <= 1 && v >= -1e-6f && v <= 1);
-    ++observed[static_cast<std::size_t>(std::clamp(u, 0.0f, 0.9999f) * kBins) * kBins + static_cast<std::size_t>(std::clamp(v, 0.0f, 0.9999f) * kBins)];
+    ++observed[static_cast<std::size_t>(std::clamp(u, 0.0f, 0.9999f) * kBins) * kBins +
+               static_cast<std::size_t>(std::clamp(v, 0.0f, 0.9999f) * kBins)];
   }
   EXPECT_GT(chi_square_p_value(observed, expected), kChiSquareSignificance);
 }
 
-/// Solid angle of a rectangle of half sides a, b seen from height h over its centre: 4 asin(ab / sqrt((a^2+h^2)(b^2+h^2))).
-double solid_angle(double a, double b, double h) { return 4 * std::asin(a * b / std::sqrt((a * a + h * h) * (b * b + h * h))); }
+/// Solid angle of a rectangle of half sides a, b seen from height h over its centre: 4 asin(ab /
+/// sqrt((a^2+h^2)(b^2+h^2))).
+double solid_angle(double a, double b, double h) {
+  return 4 * std::asin(a * b / std::sqrt((a * a + h * h) * (b * b + h * h)));
+}
 
 TEST(QuadLight, MeanIrradianceIsRadianceTimesSolidAngle) {
   // Incident irradiance is on a plane that faces the light, so its mean is Le times the plain solid angle.

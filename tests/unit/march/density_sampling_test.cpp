@@ -11,16 +11,16 @@ namespace {
 
 const Vec3d kLow{-1, -1, 0}, kHigh{1, 1, 4};
 
-float random_number(std::uint32_t i) { return Sampler(SamplerKind::Independent, 8, 2, i).u1(Decision::DensityDistance); }
+float random_number(std::uint32_t i) {
+  return Sampler(SamplerKind::Independent, 8, 2, i).u1(Decision::DensityDistance);
+}
 
-template <int C>
-double pdf_at(const DensitySampling<C>& sampling, const MarchRecord<C>& rec, double t) {
+template <int C> double pdf_at(const DensitySampling<C>& sampling, const MarchRecord<C>& rec, double t) {
   return double(sampling.pdf(evaluate(rec, static_cast<float>(t))));
 }
 
 /// Integral of the reported density over [a, b], split at the edges of the record where it jumps.
-template <int C>
-double integral(const DensitySampling<C>& sampling, const MarchRecord<C>& rec, double a, double b) {
+template <int C> double integral(const DensitySampling<C>& sampling, const MarchRecord<C>& rec, double a, double b) {
   double sum = 0;
   for (int i = 0; i < rec.n; ++i) {
     const double low = std::max(a, double(rec.t[i])), high = std::min(b, double(rec.t[i + 1]));
@@ -29,19 +29,20 @@ double integral(const DensitySampling<C>& sampling, const MarchRecord<C>& rec, d
     double tau = 0;
     for (const float* sigma_t : rec.sigma_t) tau = std::max(tau, double(sigma_t[i]) * (high - low));
     const int panels = 20 + static_cast<int>(tau);  // a mean free path each
-    sum += integrate([&](double t) { return double(sampling.pdf(evaluate(rec, static_cast<float>(t), i))); }, low, high, panels);
+    sum += integrate([&](double t) { return double(sampling.pdf(evaluate(rec, static_cast<float>(t), i))); }, low, high,
+                     panels);
   }
   return sum;
 }
 
 /// Chi-square of samples against the reported density, over cells of equal width; and what every sampler promises.
-template <int C>
-void expect_samples_follow_the_density(const MarchRecord<C>& rec, const char* what) {
+template <int C> void expect_samples_follow_the_density(const MarchRecord<C>& rec, const char* what) {
   const DensitySampling<C> sampling(rec);
   constexpr int kBins = 64, kN = 100000;
   const double begin = double(rec.span().begin), width = double(rec.span().length()) / kBins;
   std::vector<double> observed(kBins), expected;
-  for (int b = 0; b < kBins; ++b) expected.push_back(kN * integral(sampling, rec, begin + b * width, begin + (b + 1) * width));
+  for (int b = 0; b < kBins; ++b)
+    expected.push_back(kN * integral(sampling, rec, begin + b * width, begin + (b + 1) * width));
   double total = 0;
   for (const double e : expected) total += e;
   // The nodes of the quadrature are rounded to floats, which an extinction of 3000 feels.
@@ -57,7 +58,8 @@ void expect_samples_follow_the_density(const MarchRecord<C>& rec, const char* wh
     if (i % 100 == 0) {
       // Where t is the edge of a segment, evaluate() may take it for the next one's; both are limits of the density.
       const int segment = find_segment(rec, s.t);
-      const float here = sampling.pdf(evaluate(rec, s.t, segment)), before = sampling.pdf(evaluate(rec, s.t, std::max(0, segment - 1)));
+      const float here = sampling.pdf(evaluate(rec, s.t, segment)),
+                  before = sampling.pdf(evaluate(rec, s.t, std::max(0, segment - 1)));
       EXPECT_TRUE(s.pdf_t == here || s.pdf_t == before) << what;
     }
     ++observed[static_cast<std::size_t>(std::clamp(static_cast<int>((double(s.t) - begin) / width), 0, kBins - 1))];
@@ -70,14 +72,16 @@ TEST(DensitySampling, SamplesFollowTheDensityInOneChannel) {
     RecordedRay<1> r({homogeneous_box(kLow, kHigh, Color(0.9f * sigma), Color(sigma))}, ray_along_z(-1), 1);
     expect_samples_follow_the_density(*r, "homogeneous");
   }
-  RecordedRay<1> ramp({profile_box([](float z) { return 0.1f + z * z; }, kLow, kHigh, Color(0.5f), Color(0.7f))}, ray_along_z(-1), 0.1f, 0.3f);
+  RecordedRay<1> ramp({profile_box([](float z) { return 0.1f + z * z; }, kLow, kHigh, Color(0.5f), Color(0.7f))},
+                      ray_along_z(-1), 0.1f, 0.3f);
   expect_samples_follow_the_density(*ramp, "ramp");
 }
 
 TEST(DensitySampling, SamplesFollowTheDensityInThreeChannels) {
   const auto rough = [](float z) { return 0.2f + std::abs(std::sin(3 * z)); };
   for (const Color throughput : {Color(1), Color(0.01f, 1, 0.2f), Color(0, 0, 1)}) {
-    RecordedRay<3> r({profile_box(rough, kLow, kHigh, {0.1f, 1, 6}, {0.2f, 1, 8})}, ray_along_z(-1), 0.13f, 0.5f, throughput);
+    RecordedRay<3> r({profile_box(rough, kLow, kHigh, {0.1f, 1, 6}, {0.2f, 1, 8})}, ray_along_z(-1), 0.13f, 0.5f,
+                     throughput);
     expect_samples_follow_the_density(*r, "chromatic");
   }
 }
@@ -96,7 +100,8 @@ TEST(DensitySampling, AChannelWithoutExtinctionTakesPart) {
 
 TEST(DensitySampling, GapsAreStepsOfTheCdfAndAreNeverHit) {
   std::vector<Medium> media{homogeneous_box({-1, -1, 0}, {1, 1, 1}, Color(1), Color(1)),
-                            profile_box([](float z) { return z > 2.5f && z < 2.8f ? 0.0f : 1.0f; }, {-1, -1, 2}, {1, 1, 3}, Color(2), Color(2.5f)),
+                            profile_box([](float z) { return z > 2.5f && z < 2.8f ? 0.0f : 1.0f; }, {-1, -1, 2},
+                                        {1, 1, 3}, Color(2), Color(2.5f)),
                             homogeneous_box({-1, -1, 3.5}, {1, 1, 4}, Color(0), Color(1))};
   RecordedRay<1> grey(media, ray_along_z(-1), 0.1f);
   expect_samples_follow_the_density(*grey, "with gaps");
@@ -114,8 +119,10 @@ TEST(DensitySampling, GapsAreStepsOfTheCdfAndAreNeverHit) {
 
 TEST(DensitySampling, EveryNumberFromTheUnitIntervalGivesAPointThatScatters) {
   // Ends of the interval and targets that fall exactly on steps of the CDF, where binary search may go either way.
-  std::vector<Medium> media{homogeneous_box({-1, -1, 0}, {1, 1, 1}, Color(0), Color(1)), homogeneous_box({-1, -1, 1}, {1, 1, 2}, Color(1), Color(1)),
-                            homogeneous_box({-1, -1, 3}, {1, 1, 4}, Color(1), Color(1)), homogeneous_box({-1, -1, 5}, {1, 1, 6}, Color(0), Color(9))};
+  std::vector<Medium> media{homogeneous_box({-1, -1, 0}, {1, 1, 1}, Color(0), Color(1)),
+                            homogeneous_box({-1, -1, 1}, {1, 1, 2}, Color(1), Color(1)),
+                            homogeneous_box({-1, -1, 3}, {1, 1, 4}, Color(1), Color(1)),
+                            homogeneous_box({-1, -1, 5}, {1, 1, 6}, Color(0), Color(9))};
   RecordedRay<1> r(media, ray_along_z(-1), 1);
   const DensitySampling<1> sampling(*r);
   std::vector<float> numbers{0, 1e-30f, 0x1p-24f, 0.5f, 0x1.fffffep-1f, 0x1.fffffcp-1f};
@@ -132,7 +139,8 @@ TEST(DensitySampling, EveryNumberFromTheUnitIntervalGivesAPointThatScatters) {
 }
 
 TEST(DensitySampling, TheWeightOfASampleIsTheSameForEveryDistanceInOneChannel) {
-  RecordedRay<1> r({profile_box([](float z) { return 0.1f + z; }, kLow, kHigh, Color(0.5f), Color(0.7f))}, ray_along_z(-1), 0.1f);
+  RecordedRay<1> r({profile_box([](float z) { return 0.1f + z; }, kLow, kHigh, Color(0.5f), Color(0.7f))},
+                   ray_along_z(-1), 0.1f);
   const DensitySampling<1> sampling(*r);
   for (std::uint32_t i = 0; i < 1000; ++i) {
     const DistanceSample s = sampling.sample(random_number(i));
@@ -142,7 +150,8 @@ TEST(DensitySampling, TheWeightOfASampleIsTheSameForEveryDistanceInOneChannel) {
 }
 
 TEST(DensitySampling, NoWeightExceedsTheInverseOfItsChannelsShare) {
-  // Balance heuristic over the channels: sigma_s T / pdf <= scattered / weight. Drawing for one channel alone has no bound.
+  // Balance heuristic over the channels: sigma_s T / pdf <= scattered / weight. Drawing for one channel alone has no
+  // bound.
   const Color throughput{0.2f, 0.3f, 0.5f};
   RecordedRay<3> r({homogeneous_box(kLow, kHigh, {1, 4, 16}, {1, 4, 16})}, ray_along_z(-1), 1, 0.5f, throughput);
   const DensitySampling<3> sampling(*r);

@@ -45,7 +45,8 @@ TEST(Distribute, WithoutExtinctionEmissionIsItsColumn) {
 
 TEST(Distribute, ManyThinSegmentsAddUpToTheOpticalDepth) {
   // 60000 float additions would lose 1e-3; sums are kept in double.
-  RecordedRay<1> r({profile_box([](float) { return 1.0f; }, kLow, kHigh, Color(1), Color(1))}, ray_along_z(-1), 2.0f / 60000);
+  RecordedRay<1> r({profile_box([](float) { return 1.0f; }, kLow, kHigh, Color(1), Color(1))}, ray_along_z(-1),
+                   2.0f / 60000);
   EXPECT_NEAR(r->tau[0][r->n], 2, 2e-6);
   EXPECT_NEAR(r->scattered(), -std::expm1(-2.0), 2e-6);
 }
@@ -63,7 +64,8 @@ TEST(Distribute, EveryPartMatchesItsDefinitionInDouble) {
     const double delta = double(r->t[i + 1]) - double(r->t[i]);
     for (std::size_t c = 0; c < 3; ++c) {
       ASSERT_NEAR(r->tau[c][i], tau[c], 1e-5);
-      const double sigma = double(r->sigma_t[c][i]), length = std::exp(-tau[c]) * (sigma > 0 ? -std::expm1(-sigma * delta) / sigma : delta);
+      const double sigma = double(r->sigma_t[c][i]),
+                   length = std::exp(-tau[c]) * (sigma > 0 ? -std::expm1(-sigma * delta) / sigma : delta);
       ASSERT_NEAR(r->length[c][i] / length, 1, 2e-5);  // the error of tau is in the exponent
       cdf += double(throughput[static_cast<int>(c)]) * double(r->sigma_s[c][i]) * length;
       emitted[c] += double(r->emission[c][i]) * length;
@@ -81,7 +83,9 @@ TEST(Distribute, EveryPartMatchesItsDefinitionInDouble) {
 
 TEST(Distribute, VeryThickMediaUnderflowToDarknessNotToNaN) {
   for (const float sigma : {100.0f, 1e4f, 1e9f}) {
-    RecordedRay<1> r({profile_box([](float) { return 1.0f; }, kLow, kHigh, Color(0.5f * sigma), Color(sigma), Color(1))}, ray_along_z(-1), 0.01f);
+    RecordedRay<1> r(
+        {profile_box([](float) { return 1.0f; }, kLow, kHigh, Color(0.5f * sigma), Color(sigma), Color(1))},
+        ray_along_z(-1), 0.01f);
     EXPECT_NEAR(r->scattered(), 0.5, 1e-5);
     EXPECT_NEAR(emitted_radiance(*r).r * sigma, 1, 1e-5);
     EXPECT_EQ(transmittance(*r)[0], std::exp(-2 * sigma));

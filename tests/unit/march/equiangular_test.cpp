@@ -13,7 +13,9 @@ namespace {
 
 const Ray kRay{{0, 0, 0}, {1, 0, 0}};
 
-float random_number(std::uint32_t i) { return Sampler(SamplerKind::Independent, 6, 1, i).u1(Decision::EquiangularDistance); }
+float random_number(std::uint32_t i) {
+  return Sampler(SamplerKind::Independent, 6, 1, i).u1(Decision::EquiangularDistance);
+}
 
 /// Angle under which the pivot (foot at 0, distance D) sees [a, b]; a difference that is safe for moderate values.
 double angle(double a, double b, double D) { return std::atan2(D * (b - a), D * D + a * b); }
@@ -25,16 +27,11 @@ struct Placement {
 };
 
 const Placement kPlacements[] = {
-    {"pivot beside the middle", 5, 1, {0, 10}},
-    {"pivot close to the ray", 3, 1e-3, {0, 10}},
-    {"pivot very close to the ray", 3, 1e-6, {0, 10}},
-    {"pivot far from the ray", 5, 1e4, {0, 10}},
-    {"foot before the span", -3, 2, {1, 4}},
-    {"foot behind the span", 9, 2, {1, 4}},
-    {"foot just outside", 0.999, 1e-6, {1, 4}},
-    {"foot on the begin of the span", 1, 0.1, {1, 4}},
-    {"foot on the end of the span", 4, 0.1, {1, 4}},
-    {"foot far away", -1000, 1, {0, 1}},
+    {"pivot beside the middle", 5, 1, {0, 10}},        {"pivot close to the ray", 3, 1e-3, {0, 10}},
+    {"pivot very close to the ray", 3, 1e-6, {0, 10}}, {"pivot far from the ray", 5, 1e4, {0, 10}},
+    {"foot before the span", -3, 2, {1, 4}},           {"foot behind the span", 9, 2, {1, 4}},
+    {"foot just outside", 0.999, 1e-6, {1, 4}},        {"foot on the begin of the span", 1, 0.1, {1, 4}},
+    {"foot on the end of the span", 4, 0.1, {1, 4}},   {"foot far away", -1000, 1, {0, 1}},
 };
 
 EquiangularSampling sampling_of(const Placement& s) {
@@ -55,7 +52,8 @@ TEST(Equiangular, SampledDistancesFollowTheDensity) {
       ASSERT_TRUE(drawn.t >= s.span.begin && drawn.t <= s.span.end) << s.what;
       const double share = angle(a, std::clamp(double(drawn.t) - foot, a, b), D) / angle(a, b, D) * kBins;
       // Near the pivot one float of t is a noticeable angle; a sample then counts for either cell.
-      const double step = kBins * D * 2.4e-7 * double(std::max(1.0f, s.span.end)) / ((D * D + std::pow(double(drawn.t) - foot, 2)) * angle(a, b, D));
+      const double step = kBins * D * 2.4e-7 * double(std::max(1.0f, s.span.end)) /
+                          ((D * D + std::pow(double(drawn.t) - foot, 2)) * angle(a, b, D));
       if (step > 0.02) ++on_a_border;
       ++observed[static_cast<std::size_t>(std::clamp(static_cast<int>(share), 0, kBins - 1))];
     }
@@ -75,7 +73,8 @@ TEST(Equiangular, DensityIntegratesToOneAndIsThatOfTheSample) {
     if (spacing < 1e-3 && D < 1e3 && std::abs(foot) < 100) {
       const double sum = integrate(
           [&](double theta) {
-            const double c = std::cos(theta), t = std::clamp(foot + D * std::tan(theta), double(s.span.begin), double(s.span.end));
+            const double c = std::cos(theta),
+                         t = std::clamp(foot + D * std::tan(theta), double(s.span.begin), double(s.span.end));
             return double(sampling.pdf(static_cast<float>(t))) * D / (c * c);
           },
           first, last, 4000);
@@ -84,7 +83,8 @@ TEST(Equiangular, DensityIntegratesToOneAndIsThatOfTheSample) {
     for (std::uint32_t i = 0; i < 500; ++i) {
       const DistanceSample drawn = sampling.sample(random_number(i));
       ASSERT_GT(drawn.pdf_t, 0) << s.what;
-      const double u = double(drawn.t) - foot, exact = D / (angle(double(s.span.begin) - foot, double(s.span.end) - foot, D) * (D * D + u * u));
+      const double u = double(drawn.t) - foot,
+                   exact = D / (angle(double(s.span.begin) - foot, double(s.span.end) - foot, D) * (D * D + u * u));
       // The sample's density is that of the unrounded distance: it differs by what half a float of t does.
       const double rounding = 2 * std::abs(u) * 1.2e-7 * double(s.span.end) / (D * D + u * u);
       EXPECT_NEAR(drawn.pdf_t / exact, 1, 2e-6 + rounding + spacing * spacing) << s.what;
@@ -137,9 +137,11 @@ TEST(Equiangular, ShortSpansFarFromTheFootKeepAllTheirDistances) {
         // Exact inverse in long double: a difference of cotangents.
         const long double foot = behind ? -static_cast<long double>(delta) : 1 + static_cast<long double>(delta);
         const long double a = -foot, b = 1 - foot, near = a > 0 ? a : -b;
-        const long double total = std::atan2(b - a, 1 + a * b), tangent = std::tan(static_cast<long double>(static_cast<float>(u)) * total);
+        const long double total = std::atan2(b - a, 1 + a * b),
+                          tangent = std::tan(static_cast<long double>(static_cast<float>(u)) * total);
         const long double away = near + tangent * (1 + near * near) / (1 - near * tangent);
-        worst = std::max(worst, static_cast<double>(std::abs((a > 0 ? away : -away) + foot - static_cast<long double>(drawn.t))));
+        worst = std::max(
+            worst, static_cast<double>(std::abs((a > 0 ? away : -away) + foot - static_cast<long double>(drawn.t))));
       }
       EXPECT_EQ(distinct.size(), 4096u) << "foot at distance " << delta;
       EXPECT_LT(worst, 2e-7) << "foot at distance " << delta;
@@ -169,7 +171,8 @@ TEST(Equiangular, IntegralOfTheInverseSquareHasNoVariance) {
     const double exact = angle(double(s.span.begin) - foot, double(s.span.end) - foot, D) / D;
     for (std::uint32_t i = 0; i < 1000; ++i) {
       const DistanceSample drawn = sampling.sample(random_number(i));
-      const double u = double(drawn.t) - foot, rounding = 2 * std::abs(u) * 1.2e-7 * double(s.span.end) / (D * D + u * u);
+      const double u = double(drawn.t) - foot,
+                   rounding = 2 * std::abs(u) * 1.2e-7 * double(s.span.end) / (D * D + u * u);
       EXPECT_NEAR(1 / (D * D + u * u) / double(drawn.pdf_t) / exact, 1, 2e-6 + rounding) << s.what;
     }
   }

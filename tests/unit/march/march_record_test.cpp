@@ -15,7 +15,8 @@ class WitnessShader final : public Shader {
  public:
   ShaderTraits traits() const override { return {}; }
   void density(const PointBatch& points, float* density) const override {
-    for (int i = 0; i < points.n; ++i) asked.push_back({points.x[i], points.y[i], points.z[i]}), density[i] = points.z[i];
+    for (int i = 0; i < points.n; ++i)
+      asked.push_back({points.x[i], points.y[i], points.z[i]}), density[i] = points.z[i];
     time = points.time;
   }
   mutable std::vector<Vec3> asked;
@@ -66,9 +67,13 @@ TEST(MarchRecord, EdgesNeverDescend) {
     const auto number = [&](int k) { return static_cast<double>(s.u1(Decision::Pixel, k)); };
     const double begin = std::pow(10.0, 5 * number(0) - 1), thickness = std::pow(10.0, 4 * number(1) - 3);
     const float step = static_cast<float>(thickness * std::pow(10.0, -4.8 * number(2)));
-    RecordedRay<1> r({profile_box([](float) { return 1.0f; }, {-1, -1, begin}, {1, 1, begin + thickness}, Color(1), Color(1))}, ray_along_z(0), step);
+    RecordedRay<1> r(
+        {profile_box([](float) { return 1.0f; }, {-1, -1, begin}, {1, 1, begin + thickness}, Color(1), Color(1))},
+        ray_along_z(0), step);
     longest = std::max(longest, r->n);
-    for (int k = 0; k < r->n; ++k) ASSERT_LE(r->t[k], r->t[k + 1]) << "from " << begin << ", length " << thickness << ", step " << step << ", edge " << k << " of " << r->n;
+    for (int k = 0; k < r->n; ++k)
+      ASSERT_LE(r->t[k], r->t[k + 1]) << "from " << begin << ", length " << thickness << ", step " << step << ", edge "
+                                      << k << " of " << r->n;
     for (int k = 0; k < r->n; ++k) ASSERT_LE(r->cdf[k], r->cdf[k + 1]);
   }
   EXPECT_GT(longest, 30000);
@@ -150,8 +155,8 @@ TEST(MarchRecord, TooManySegmentsMakeTheStepLongerAreCountedAndEndWhereTheMedium
   EXPECT_NEAR(r->tau[0][r->n], 2, 2e-6);
 }
 
-// distribute() reads whole SIMD vectors of the edges from the second one on. The sanitizer sees it when the edges are the
-// last thing in their block of the arena; blocks of every size are tried for every length.
+// distribute() reads whole SIMD vectors of the edges from the second one on. The sanitizer sees it when the edges are
+// the last thing in their block of the arena; blocks of every size are tried for every length.
 TEST(MarchRecord, DistributeReadsNothingBeyondTheArena) {
   const std::vector<Medium> media{profile_box([](float) { return 1.0f; }, kLow, kHigh, Color(1), Color(1))};
   for (int n = 1; n <= 40; ++n)
@@ -166,8 +171,8 @@ TEST(MarchRecord, DistributeReadsNothingBeyondTheArena) {
     }
 }
 
-// B3 and O5 of the catalogue: a field of five sharp blobs, whose transmittance is too bright by known amounts when it is
-// marched with few steps and one offset for all of them.
+// B3 and O5 of the catalogue: a field of five sharp blobs, whose transmittance is too bright by known amounts when it
+// is marched with few steps and one offset for all of them.
 TEST(MarchRecord, BiasOfTheTransmittanceOfFiveBlobsIsThatOfTheCatalogue) {
   const auto blobs = [](float z) {
     float sum = 0.05f;
@@ -181,16 +186,18 @@ TEST(MarchRecord, BiasOfTheTransmittanceOfFiveBlobsIsThatOfTheCatalogue) {
     double bias, tolerance;
   };
   // The catalogue gives two digits; its 0.00 means below 0.05 %.
-  for (const Row row : {Row{1, 16, 0.027, 0.0027}, Row{1, 32, 0.007, 0.0007}, Row{1, 64, 0, 5e-4}, Row{5, 32, 0.17, 0.017}, Row{5, 64, 0, 5e-4}}) {
+  for (const Row row : {Row{1, 16, 0.027, 0.0027}, Row{1, 32, 0.007, 0.0007}, Row{1, 64, 0, 5e-4},
+                        Row{5, 32, 0.17, 0.017}, Row{5, 64, 0, 5e-4}}) {
     double sum = 0;
     constexpr int kOffsets = 2000;
     for (int k = 0; k < kOffsets; ++k) {
-      RecordedRay<1> r({profile_box(blobs, {-1, -1, 0}, {1, 1, 1}, Color(0), Color(row.scale))}, ray_along_z(), 1.0f / static_cast<float>(row.steps),
-                       (static_cast<float>(k) + 0.5f) / kOffsets);
+      RecordedRay<1> r({profile_box(blobs, {-1, -1, 0}, {1, 1, 1}, Color(0), Color(row.scale))}, ray_along_z(),
+                       1.0f / static_cast<float>(row.steps), (static_cast<float>(k) + 0.5f) / kOffsets);
       sum += static_cast<double>(transmittance(*r)[0]);
     }
     const double bias = sum / kOffsets / std::exp(-column * static_cast<double>(row.scale)) - 1;
-    EXPECT_NEAR(bias, row.bias, row.tolerance) << "optical depth " << column * static_cast<double>(row.scale) << ", " << row.steps << " steps";
+    EXPECT_NEAR(bias, row.bias, row.tolerance)
+        << "optical depth " << column * static_cast<double>(row.scale) << ", " << row.steps << " steps";
   }
 }
 

@@ -16,20 +16,26 @@ double shadow_tau(const std::vector<Medium>& media, const Ray& ray, float step, 
 TEST(ShadowMarch, OpticalDepthOfAHomogeneousMediumIsExactAtEveryStep) {
   const std::vector<Medium> media{homogeneous_box({-1, -1, 0}, {1, 1, 2}, {1, 1, 1}, {1, 2, 4})};
   for (const float step : {1e-3f, 0.3f, 100.0f})
-    for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(static_cast<float>(shadow_tau(media, ray_along_z(-1), step, 0.3f, c)), static_cast<float>(2 << c));
+    for (int c = 0; c < 3; ++c)
+      EXPECT_FLOAT_EQ(static_cast<float>(shadow_tau(media, ray_along_z(-1), step, 0.3f, c)),
+                      static_cast<float>(2 << c));
 }
 
 TEST(ShadowMarch, AgreesWithTheRecordOfTheSameRayAndOffset) {
-  const std::vector<Medium> media{profile_box([](float z) { return 1 + std::sin(5 * z); }, {-1, -1, 0}, {1, 1, 2}, Color(1), {1, 2, 4}),
-                                  profile_box([](float z) { return z * z; }, {-1, -1, 1.3}, {1, 1, 2.7}, Color(1), {3, 2, 1}),
-                                  homogeneous_box({-1, -1, 4}, {1, 1, 5}, Color(1), {1, 2, 1})};
+  const std::vector<Medium> media{
+      profile_box([](float z) { return 1 + std::sin(5 * z); }, {-1, -1, 0}, {1, 1, 2}, Color(1), {1, 2, 4}),
+      profile_box([](float z) { return z * z; }, {-1, -1, 1.3}, {1, 1, 2.7}, Color(1), {3, 2, 1}),
+      homogeneous_box({-1, -1, 4}, {1, 1, 5}, Color(1), {1, 2, 1})};
   // A single medium is split into the same segments. Overlapping ones are split apart by record() at each other's
   // borders, so only their means over the offset are equal: see the next test.
   for (const float offset : {0.0f, 0.4f, 0.99f})
     for (std::size_t m = 0; m < media.size(); ++m) {
       RecordedRay<3> r({media[m]}, ray_along_z(-1), 0.07f, offset);
       for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(shadow_tau({media[m]}, ray_along_z(-1), 0.07f, offset, c) / r->tau[static_cast<std::size_t>(c)][r->n], 1, 1e-6) << m;
+        EXPECT_NEAR(
+            shadow_tau({media[m]}, ray_along_z(-1), 0.07f, offset, c) / r->tau[static_cast<std::size_t>(c)][r->n], 1,
+            1e-6)
+            << m;
     }
 }
 
@@ -60,7 +66,8 @@ TEST(ShadowMarch, OnlyTheSpanOfTheRayCounts) {
   EXPECT_NEAR(shadow_tau(media, ray_along_z(-1, {0, 1.5f}), 0.1f, 0.5f), 0.5, 1e-6);
   EXPECT_NEAR(shadow_tau(media, ray_along_z(1, {0, 2.5f}), 0.1f, 0.5f), 1.5, 1e-6);
   EXPECT_NEAR(shadow_tau(media, ray_along_z(-1, {0, 0.5f}), 0.1f, 0.5f), 0, 0);
-  EXPECT_NEAR(shadow_tau(media, {{0, 0, 9}, {0, 0, -1}, {0, std::numeric_limits<float>::infinity()}}, 0.1f, 0.5f), 4, 1e-6);
+  EXPECT_NEAR(shadow_tau(media, {{0, 0, 9}, {0, 0, -1}, {0, std::numeric_limits<float>::infinity()}}, 0.1f, 0.5f), 4,
+              1e-6);
 }
 
 TEST(ShadowMarch, LeavesTheArenaAsItWas) {
@@ -69,7 +76,8 @@ TEST(ShadowMarch, LeavesTheArenaAsItWas) {
   const ArenaScope scope(arena);
   const std::size_t before = arena.used_bytes();
   const std::vector<Medium> media{profile_box([](float) { return 1.0f; }, {-1, -1, 0}, {1, 1, 2}, Color(1), Color(1))};
-  EXPECT_NEAR(shadow_transmittance<1>(media, ray_along_z(-1), {0.01f, 0.5f, 0}, arena, counts)[0], std::exp(-2.0), 1e-6);
+  EXPECT_NEAR(shadow_transmittance<1>(media, ray_along_z(-1), {0.01f, 0.5f, 0}, arena, counts)[0], std::exp(-2.0),
+              1e-6);
   EXPECT_EQ(arena.used_bytes(), before);
   EXPECT_EQ(counts.lookups, 200u);
 }

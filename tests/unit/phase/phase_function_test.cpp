@@ -23,8 +23,8 @@ double one_minus_abs_cos(Vec3 w) {
   return s2 / (std::sqrt(s2 + c * c) * (std::sqrt(s2 + c * c) + c));
 }
 
-/// Share of the light that HG sends into cosines above 1 - m. Integral of the phase function in closed form, written for
-/// m so that the peak is resolved:  (1 - g^2) / (2 g) (1/(1-g) - 1/sqrt((1-g)^2 + 2 g m)), and m/2 for g = 0.
+/// Share of the light that HG sends into cosines above 1 - m. Integral of the phase function in closed form, written
+/// for m so that the peak is resolved:  (1 - g^2) / (2 g) (1/(1-g) - 1/sqrt((1-g)^2 + 2 g m)), and m/2 for g = 0.
 double forward_share(double g, double m) {
   if (std::abs(g) < 1e-9) return 0.5 * m;
   const double q0 = 1 - g, q = std::sqrt(q0 * q0 + 2 * g * m);
@@ -41,7 +41,8 @@ TEST(HenyeyGreenstein, SampledDirectionsFollowTheDensity) {
       const Vec3 w = phase.sample({0, 0, 1}, random_pair(i)).direction;
       const double small = one_minus_abs_cos(w), m = w.z > 0 ? small : 2 - small;
       // Equal shares of the light, by the closed form. For g < 0 the peak is behind: mirrored, its shares are resolved.
-      const double share = g < 0 ? 1 - forward_share(-double(g), w.z > 0 ? 2 - small : small) : forward_share(double(g), m);
+      const double share =
+          g < 0 ? 1 - forward_share(-double(g), w.z > 0 ? 2 - small : small) : forward_share(double(g), m);
       const double angle = std::atan2(double(w.y), double(w.x)) / kTwoPi + 0.5;
       const auto row = std::min<std::size_t>(kCosines - 1, static_cast<std::size_t>(std::max(0.0, share) * kCosines));
       ++observed[row * kAngles + std::min<std::size_t>(kAngles - 1, static_cast<std::size_t>(angle * kAngles))];
@@ -53,8 +54,9 @@ TEST(HenyeyGreenstein, SampledDirectionsFollowTheDensity) {
 TEST(HenyeyGreenstein, IntegralIsOneAndMeanCosineIsG) {
   for (const float g : kAnisotropies) {
     const HenyeyGreenstein phase(g);
-    // Over s with 1 - cos = 2 s^4 (or 1 + cos, for backward peaks): the peak has as many nodes as the rest. The argument
-    // is rounded to float before value() sees it; that is of second order in (float spacing) / (width of the peak).
+    // Over s with 1 - cos = 2 s^4 (or 1 + cos, for backward peaks): the peak has as many nodes as the rest. The
+    // argument is rounded to float before value() sees it; that is of second order in (float spacing) / (width of the
+    // peak).
     const auto moment = [&](bool with_cosine) {
       return integrate(
           [&](double s) {
@@ -76,7 +78,8 @@ TEST(HenyeyGreenstein, MeanCosineOfSamplesIsGForEveryIncidentDirection) {
   const double z = sidak_z(1e-3, static_cast<int>(std::size(kAnisotropies)) * 6);
   for (const float g : kAnisotropies) {
     const HenyeyGreenstein phase(g);
-    for (const Vec3 incident : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(0, -1, 0), normalize(Vec3(1, -2, 3)), normalize(Vec3(-3, 1, -1e-3f))}) {
+    for (const Vec3 incident : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(0, -1, 0), normalize(Vec3(1, -2, 3)),
+                                normalize(Vec3(-3, 1, -1e-3f))}) {
       RunningMean mean;
       for (std::uint32_t i = 0; i < kN; ++i) {
         const PhaseSample s = phase.sample(incident, random_pair(i));
@@ -139,7 +142,8 @@ TEST(Isotropic, SampledDirectionsFollowTheDensity) {
     const PhaseSample s = Isotropic().sample(normalize(Vec3(1, 1, 1)), random_pair(i));
     EXPECT_FLOAT_EQ(s.pdf_w, Isotropic().value(0.3f));
     const double angle = std::atan2(double(s.direction.y), double(s.direction.x)) / kTwoPi + 0.5;
-    ++observed[std::min<std::size_t>(kBins - 1, static_cast<std::size_t>((0.5 + 0.5 * double(s.direction.z)) * kBins)) * kBins +
+    ++observed[std::min<std::size_t>(kBins - 1, static_cast<std::size_t>((0.5 + 0.5 * double(s.direction.z)) * kBins)) *
+                   kBins +
                std::min<std::size_t>(kBins - 1, static_cast<std::size_t>(angle * kBins))];
   }
   EXPECT_GT(chi_square_p_value(observed, expected), kChiSquareSignificance);
@@ -152,13 +156,16 @@ TEST(PhaseRegistry, EveryKindMadeFromItsDefaultsIsNormalisedAndSamplesItsOwnDens
     const auto phase = type.make(Node(*type.table));
     ASSERT_NE(phase, nullptr);
     const auto integral = [&](double low, double high, bool with_cosine) {
-      return integrate([&](double c) { return kTwoPi * double(phase->value(static_cast<float>(c))) * (with_cosine ? c : 1.0); }, low, high, 2000);
+      return integrate(
+          [&](double c) { return kTwoPi * double(phase->value(static_cast<float>(c))) * (with_cosine ? c : 1.0); }, low,
+          high, 2000);
     };
     EXPECT_NEAR(integral(-1, 1, false), 1, 1e-5) << type.table->key;
     EXPECT_NEAR(integral(-1, 1, true), phase->mean_cosine(), 1e-5) << type.table->key;
     constexpr int kBins = 32, kN = 50000;
     std::vector<double> observed(kBins), expected;
-    for (int b = 0; b < kBins; ++b) expected.push_back(kN * integral(-1 + 2.0 * b / kBins, -1 + 2.0 * (b + 1) / kBins, false));
+    for (int b = 0; b < kBins; ++b)
+      expected.push_back(kN * integral(-1 + 2.0 * b / kBins, -1 + 2.0 * (b + 1) / kBins, false));
     const Vec3 incident = normalize(Vec3(2, -1, 0.5f));
     for (std::uint32_t i = 0; i < kN; ++i) {
       const PhaseSample s = phase->sample(incident, random_pair(i));

@@ -10,40 +10,48 @@ namespace brume {
 namespace {
 
 constexpr Decision kDecisions[] = {
-    Decision::Pixel,           Decision::MarchOffset,         Decision::ShadowOffset, Decision::LightChoice,    Decision::LightPoint,
-    Decision::DensityDistance, Decision::EquiangularDistance, Decision::PhaseLobe,    Decision::PhaseDirection, Decision::BounceDistance,
-    Decision::BounceLobe,      Decision::BounceDirection,     Decision::Roulette,     Decision::TechniquePhase};
+    Decision::Pixel,          Decision::MarchOffset,     Decision::ShadowOffset,        Decision::LightChoice,
+    Decision::LightPoint,     Decision::DensityDistance, Decision::EquiangularDistance, Decision::PhaseLobe,
+    Decision::PhaseDirection, Decision::BounceDistance,  Decision::BounceLobe,          Decision::BounceDirection,
+    Decision::Roulette,       Decision::TechniquePhase};
 constexpr int kDecisionCount = static_cast<int>(std::size(kDecisions));
 static_assert(static_cast<int>(Decision::TechniquePhase) + 1 == kDecisionCount, "a decision is missing from the tests");
 
 constexpr SamplerKind kKinds[] = {SamplerKind::Independent, SamplerKind::Sobol};
 
 double chi_square_uniform(const std::vector<double>& values, int bins) {
-  std::vector<double> observed(static_cast<std::size_t>(bins)), expected(observed.size(), static_cast<double>(values.size()) / bins);
+  std::vector<double> observed(static_cast<std::size_t>(bins)),
+      expected(observed.size(), static_cast<double>(values.size()) / bins);
   for (const double v : values) ++observed[static_cast<std::size_t>(v * bins)];
   return chi_square_p_value(observed, expected);
 }
 
 /// p-value of a 2D histogram against the uniform square.
 double chi_square_square(const std::vector<double>& a, const std::vector<double>& b, int bins) {
-  std::vector<double> observed(static_cast<std::size_t>(bins * bins)), expected(observed.size(), static_cast<double>(a.size()) / (bins * bins));
+  std::vector<double> observed(static_cast<std::size_t>(bins * bins)),
+      expected(observed.size(), static_cast<double>(a.size()) / (bins * bins));
   for (std::size_t i = 0; i < a.size(); ++i)
-    ++observed[static_cast<std::size_t>(a[i] * bins) * static_cast<std::size_t>(bins) + static_cast<std::size_t>(b[i] * bins)];
+    ++observed[static_cast<std::size_t>(a[i] * bins) * static_cast<std::size_t>(bins) +
+               static_cast<std::size_t>(b[i] * bins)];
   return chi_square_p_value(observed, expected);
 }
 
 /// The first numbers of a decision over pixels (a Sobol' sequence is only random from one pixel to the next).
-std::vector<double> over_pixels(SamplerKind kind, Decision decision, int n, std::uint32_t sample = 0, int bounce = 0, int index = 0) {
+std::vector<double> over_pixels(SamplerKind kind, Decision decision, int n, std::uint32_t sample = 0, int bounce = 0,
+                                int index = 0) {
   std::vector<double> values;
   for (int p = 0; p < n; ++p)
-    values.push_back(static_cast<double>(Sampler(kind, 7, static_cast<std::uint32_t>(p), sample).u1(decision, bounce, index)));
+    values.push_back(
+        static_cast<double>(Sampler(kind, 7, static_cast<std::uint32_t>(p), sample).u1(decision, bounce, index)));
   return values;
 }
 
-std::vector<double> over_samples(SamplerKind kind, Decision decision, int n, std::uint32_t pixel, int bounce = 0, int index = 0) {
+std::vector<double> over_samples(SamplerKind kind, Decision decision, int n, std::uint32_t pixel, int bounce = 0,
+                                 int index = 0) {
   std::vector<double> values;
   for (int s = 0; s < n; ++s)
-    values.push_back(static_cast<double>(Sampler(kind, 7, pixel, static_cast<std::uint32_t>(s)).u1(decision, bounce, index)));
+    values.push_back(
+        static_cast<double>(Sampler(kind, 7, pixel, static_cast<std::uint32_t>(s)).u1(decision, bounce, index)));
   return values;
 }
 
@@ -66,16 +74,19 @@ TEST(Sampler, MarginalsAreUniformForEveryDecision) {
   for (const SamplerKind kind : kKinds)
     for (const Decision d : kDecisions) {
       const int number = static_cast<int>(d);
-      EXPECT_GT(chi_square_uniform(over_pixels(kind, d, 20000), 64), kChiSquareSignificance) << "over pixels, decision " << number;
+      EXPECT_GT(chi_square_uniform(over_pixels(kind, d, 20000), 64), kChiSquareSignificance)
+          << "over pixels, decision " << number;
       EXPECT_GT(chi_square_uniform(over_pixels(kind, d, 20000, 12345, 3, 2), 64), kChiSquareSignificance)
           << "over pixels at a later pass and bounce, decision " << number;
-      EXPECT_GT(chi_square_uniform(over_samples(kind, d, 20000, 5), 64), kChiSquareSignificance) << "over passes, decision " << number;
+      EXPECT_GT(chi_square_uniform(over_samples(kind, d, 20000, 5), 64), kChiSquareSignificance)
+          << "over passes, decision " << number;
     }
 }
 
 TEST(Sampler, SecondComponentIsUniformAndIndependentOfTheFirst) {
   for (const SamplerKind kind : kKinds)
-    for (const Decision d : {Decision::Pixel, Decision::LightPoint, Decision::PhaseDirection, Decision::BounceDirection}) {
+    for (const Decision d :
+         {Decision::Pixel, Decision::LightPoint, Decision::PhaseDirection, Decision::BounceDirection}) {
       std::vector<double> x, y;
       for (std::uint32_t p = 0; p < 20000; ++p) {
         const Vec2 u = Sampler(kind, 3, p, 9).u2(d);
@@ -92,14 +103,15 @@ TEST(Sampler, DecisionsDoNotDependOnEachOther) {
   const int pairs = kDecisionCount * (kDecisionCount - 1) / 2;
   for (const SamplerKind kind : kKinds) {
     std::vector<std::vector<double>> pixels, samples;
-    for (const Decision d : kDecisions) pixels.push_back(over_pixels(kind, d, kN, 2)), samples.push_back(over_samples(kind, d, kN, 11));
+    for (const Decision d : kDecisions)
+      pixels.push_back(over_pixels(kind, d, kN, 2)), samples.push_back(over_samples(kind, d, kN, 11));
     // The correlation of independent numbers is normal with standard deviation 1/sqrt(n).
     const double bound = sidak_z(1e-3, 2 * pairs) / std::sqrt(kN);
     for (std::size_t a = 0; a < kDecisionCount; ++a)
       for (std::size_t b = a + 1; b < kDecisionCount; ++b) {
         EXPECT_LT(std::abs(correlation(pixels[a], pixels[b])), bound) << a << ' ' << b;
         EXPECT_LT(std::abs(correlation(samples[a], samples[b])), bound) << a << ' ' << b;
-        EXPECT_GT(chi_square_square(pixels[a], pixels[b], 8), 1e-6) << a << ' ' << b;   // 182 tests of each kind
+        EXPECT_GT(chi_square_square(pixels[a], pixels[b], 8), 1e-6) << a << ' ' << b;  // 182 tests of each kind
         EXPECT_GT(chi_square_square(samples[a], samples[b], 8), 1e-6) << a << ' ' << b;
       }
   }
@@ -115,11 +127,12 @@ TEST(Sampler, BouncesLightSamplesPassesPixelsAndSeedsDoNotDependOnEachOther) {
       other_seed.push_back(static_cast<double>(Sampler(kind, 8, p, 4).u1(d, 1, 1)));
       other_pixel.push_back(static_cast<double>(Sampler(kind, 7, p + 1, 4).u1(d, 1, 1)));
     }
-    const std::pair<const char*, std::vector<double>> others[] = {{"next bounce", over_pixels(kind, d, kN, 4, 2, 1)},
-                                                                 {"next light sample", over_pixels(kind, d, kN, 4, 1, 2)},
-                                                                 {"bounce and light sample swapped", over_pixels(kind, d, kN, 4, 2, 0)},
-                                                                 {"next seed", other_seed},
-                                                                 {"next pixel", other_pixel}};
+    const std::pair<const char*, std::vector<double>> others[] = {
+        {"next bounce", over_pixels(kind, d, kN, 4, 2, 1)},
+        {"next light sample", over_pixels(kind, d, kN, 4, 1, 2)},
+        {"bounce and light sample swapped", over_pixels(kind, d, kN, 4, 2, 0)},
+        {"next seed", other_seed},
+        {"next pixel", other_pixel}};
     for (const auto& [what, values] : others) {
       EXPECT_LT(std::abs(correlation(base, values)), sidak_z(1e-3, 10) / std::sqrt(kN)) << what;
       EXPECT_GT(chi_square_square(base, values, 16), kChiSquareSignificance) << what;
@@ -138,7 +151,8 @@ TEST(SobolSampler, EveryAlignedBlockOf2ToTheKNumbersHitsEveryPartOf1DOnce) {
       for (const std::uint32_t first : {0u, n, 5 * n}) {
         std::vector<int> hits(n);
         for (std::uint32_t s = first; s < first + n; ++s)
-          ++hits[static_cast<std::size_t>(Sampler(SamplerKind::Sobol, 1, pixel, s).u1(Decision::MarchOffset) * static_cast<float>(n))];
+          ++hits[static_cast<std::size_t>(Sampler(SamplerKind::Sobol, 1, pixel, s).u1(Decision::MarchOffset) *
+                                          static_cast<float>(n))];
         for (const int h : hits) ASSERT_EQ(h, 1) << "pixel " << pixel << ", block of " << n << " from " << first;
       }
     }
@@ -153,7 +167,8 @@ TEST(SobolSampler, SixteenPointsOfAPairHitEveryElementaryInterval) {
           std::vector<int> hits(16);
           for (std::uint32_t s = first; s < first + 16; ++s) {
             const Vec2 u = Sampler(SamplerKind::Sobol, 1, pixel, s).u2(d);
-            ++hits[static_cast<std::size_t>(static_cast<int>(u.x * static_cast<float>(columns)) * rows + static_cast<int>(u.y * static_cast<float>(rows)))];
+            ++hits[static_cast<std::size_t>(static_cast<int>(u.x * static_cast<float>(columns)) * rows +
+                                            static_cast<int>(u.y * static_cast<float>(rows)))];
           }
           for (const int h : hits) ASSERT_EQ(h, 1) << "pixel " << pixel << ", " << columns << " x " << rows;
         }
@@ -177,7 +192,8 @@ TEST(Sampler, PerPixelNumberIsFixedOverPassesUniformOverPixelsAndUnlikeTheOthers
     std::vector<double> values;
     for (std::uint32_t p = 0; p < 8192; ++p) {
       const float first = Sampler(kind, 7, p, 0).per_pixel(Decision::TechniquePhase);
-      for (const std::uint32_t s : {1u, 2u, 1000u}) ASSERT_EQ(Sampler(kind, 7, p, s).per_pixel(Decision::TechniquePhase), first);
+      for (const std::uint32_t s : {1u, 2u, 1000u})
+        ASSERT_EQ(Sampler(kind, 7, p, s).per_pixel(Decision::TechniquePhase), first);
       values.push_back(static_cast<double>(first));
     }
     EXPECT_GT(chi_square_uniform(values, 64), kChiSquareSignificance);

@@ -18,7 +18,8 @@ TEST(UniformSphere, PointsAreUnitAndUniformInHeightAndAngle) {
     const Vec3 w = uniform_sphere(Sampler(SamplerKind::Independent, 1, 0, i).u2(Decision::PhaseDirection));
     ASSERT_NEAR(length(w), 1, 4e-7f);
     const double angle = std::atan2(static_cast<double>(w.y), static_cast<double>(w.x)) / (2 * 3.14159265358979) + 0.5;
-    const auto row = std::min<std::size_t>(kBins - 1, static_cast<std::size_t>((0.5 + 0.5 * static_cast<double>(w.z)) * kBins));
+    const auto row =
+        std::min<std::size_t>(kBins - 1, static_cast<std::size_t>((0.5 + 0.5 * static_cast<double>(w.z)) * kBins));
     const auto column = std::min<std::size_t>(kBins - 1, static_cast<std::size_t>(angle * kBins));
     ++observed[row * kBins + column];
   }

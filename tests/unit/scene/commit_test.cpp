@@ -61,7 +61,8 @@ TEST(Commit, CoefficientsComeFromTheAlbedoUnlessTheyAreGiven) {
   EXPECT_EQ(committed(description)->media[0].sigma_t, Color(4, 8, 16));
   set(v, "emission_scale", "3");
   set(v, "emission_color", "1,0.5,0");
-  EXPECT_EQ(committed(description)->media[0].emission, Color(3, 1.5f, 0)) << "emission is not multiplied by the density scale";
+  EXPECT_EQ(committed(description)->media[0].emission, Color(3, 1.5f, 0))
+      << "emission is not multiplied by the density scale";
 }
 
 TEST(Commit, AutomaticStepIsTheFinestScaleAndTheShadowStepFollowsTheStep) {
