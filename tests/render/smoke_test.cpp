@@ -80,7 +80,7 @@ TEST(Smoke, WhiteFurnaceGivesOneAtAnyStep) {
     ASSERT_EQ(s->step_size, s->shadow_step_size);
     // Over the middle of the picture, where there is smoke: each sample is a pixel of its own.
     const auto integrator = make_integrator(s->render.integrator);
-    const int samples = (full() ? 4000000 : 250000) / kFewer;
+    const int samples = (full() ? 8000000 : 2000000) / kFewer;
     Arena arena;
     RayStatistics statistics;
     RunningMean mean;
@@ -92,10 +92,8 @@ TEST(Smoke, WhiteFurnaceGivesOneAtAnyStep) {
     }
     std::printf("furnace at step %s: %.5f +- %.5f\n", step, mean.mean(), mean.standard_error());
     EXPECT_LT(std::abs(mean.mean() - 1), 4 * mean.standard_error()) << "step " << step;
-    EXPECT_LT(mean.standard_error(), (full() ? 3e-4 : 1.2e-3) * std::sqrt(kFewer)) << "step " << step;
-    if (full()) {
-      EXPECT_NEAR(mean.mean(), 1, 1e-3) << "step " << step;
-    }
+    EXPECT_LT(mean.standard_error(), (full() ? 2e-4 : 4e-4) * std::sqrt(kFewer)) << "step " << step;
+    EXPECT_NEAR(mean.mean(), 1, 1e-3 * std::sqrt(kFewer)) << "step " << step;
     EXPECT_EQ(statistics.non_finite, 0u);
   }
 }
@@ -136,7 +134,7 @@ TEST(Smoke, DensityEquiangularAndMisAgreeInEveryBlockOfThePicture) {
     set(scene, "render.light_samples", "2");
     WorkerPool pool;
     Film film(kSize, kSize);
-    render_batch(*committed(scene), (k == 1 ? 96 : 48) / kFewer, film, pool);
+    render_batch(*committed(scene), (full() ? 16 : 1) * (k == 1 ? 512 : 256) / kFewer, film, pool);
     pictures.push_back(blocks_of(film, kBlock));
   }
   const int comparisons = static_cast<int>(pictures[0].mean.size()) * 3;
@@ -146,7 +144,6 @@ TEST(Smoke, DensityEquiangularAndMisAgreeInEveryBlockOfThePicture) {
   for (int a = 0; a < 3; ++a)
     for (int b = a + 1; b < 3; ++b) {
       const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-      RunningMean ratio;
       for (std::size_t k = 0; k < pictures[i].mean.size(); ++k) {
         const double noise = std::sqrt(pictures[i].variance[k] + pictures[j].variance[k]);
         if (noise == 0) continue;  // no smoke
@@ -172,10 +169,11 @@ TEST(Smoke, LooksLikeTheYardstick) {
   Node scene = plume();
   add_yardstick_lights(scene);
   set(scene, "render.light_samples", "2");
-  set(scene, "render.step_size", "0.018");  // half a voxel
+  set(scene, "render.step_size",
+      "0.0109");  // 0.3 voxels, as the yardstick; the mean is off by +0.5 % at 1 and +0.1 % at 1/2
   WorkerPool pool;
   Film film(clean->image.width, clean->image.height);
-  render_batch(*committed(scene), std::max(2, 8 / kFewer), film, pool);
+  render_batch(*committed(scene), 64 / kFewer, film, pool);
 
   Film reference(clean->image.width, clean->image.height);
   RunningMean ours, theirs;
@@ -187,17 +185,17 @@ TEST(Smoke, LooksLikeTheYardstick) {
     }
   const Blocks a = blocks_of(film, kBlock), b = blocks_of(reference, kBlock);
   // Noise of the clean picture: that of its 512-sample sister is 0.0018 per value and 4096 stratified samples have at
-  // most 0.0018 / sqrt(8). Its stated bias is 0.0002 for the mean, and ours at half a voxel is within 1 %.
+  // most 0.0018 / sqrt(8). Both are biased by their steps, measured as +0.03 % of our mean at this one.
   const double clean_noise = 0.0018 / std::sqrt(8.0) / kBlock, bound = sidak_z(1e-3, static_cast<int>(a.mean.size()));
   double largest = 0;
   for (std::size_t k = 0; k < a.mean.size(); ++k) {
-    const double allowed_bias = 0.01 * b.mean[k] + 2e-5;
+    const double allowed_bias = 0.003 * b.mean[k] + 2e-5;
     const double z = std::max(0.0, std::abs(a.mean[k] - b.mean[k]) - allowed_bias) /
                      std::sqrt(a.variance[k] + clean_noise * clean_noise);
     largest = std::max(largest, z);
     EXPECT_LT(z, bound) << "value " << k << ": " << a.mean[k] << " and " << b.mean[k];
   }
-  EXPECT_NEAR(ours.mean() / theirs.mean(), 1, 0.01);
+  EXPECT_NEAR(ours.mean() / theirs.mean(), 1, 0.002);
   std::printf("mean %.6f, yardstick %.6f; largest |z| of %zu blocks beyond the bias: %.2f (allowed %.2f)\n",
               ours.mean(), theirs.mean(), a.mean.size(), largest, bound);
 }

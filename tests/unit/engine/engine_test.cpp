@@ -179,7 +179,7 @@ TEST(Engine, SeveralJobsAreAllFinishedAndEachIsItsOwn) {
 TEST(Engine, APauseKeepsTheSamplesAndNothingIsRenderedInIt) {
   const auto scene = scene_of(2);
   Engine engine(2);
-  engine.submit({{scene, kWidth, kHeight, 400}});
+  engine.submit({{scene, kWidth, kHeight, 200}});
   ASSERT_TRUE(eventually([&] {
     const auto p = engine.picture();
     return p && p->statistics.samples_per_pixel >= 3;
@@ -194,7 +194,7 @@ TEST(Engine, APauseKeepsTheSamplesAndNothingIsRenderedInIt) {
   engine.pause(false);
   ASSERT_TRUE(eventually([&] { return finished(engine, 0, 2); }));
   EXPECT_GE(engine.picture()->statistics.samples_per_pixel, before->statistics.samples_per_pixel);
-  EXPECT_TRUE(engine.picture()->image == batch(*scene, 400, 2));
+  EXPECT_TRUE(engine.picture()->image == batch(*scene, 200, 2));
 }
 
 // "Edits made meanwhile are still shown coarsely", and every edit's first picture is a coarse one.
