@@ -28,7 +28,7 @@ struct Engine::Progress {
   Job job;
   std::size_t index;
   std::unique_ptr<const Integrator> integrator;
-  Film film;
+  Film film;        // of older samples until the first full pass
   int divisor = 0;  // of the next coarse pass; 1: the film's passes; 0: nothing has been shown yet
   RenderStatistics statistics = {};
   Clock::time_point published = {};
@@ -90,12 +90,16 @@ void Engine::direct(const std::stop_token& stop) {
       if (!changed_.wait(lock, stop, has_work)) return;
       if (wish_number_ != current_wish_) {
         current_wish_ = wish_number_;
+        // Films are kept: fresh memory of this size costs more time than a first look may take.
+        std::vector<Film> films;
+        for (Progress& job : jobs) films.push_back(std::move(job.film));
+        films.resize(wishes_.size());
         jobs.clear();
         // Pictures of the old wishes stay up until the first of the new ones is there: nothing flashes black.
         pictures_.resize(wishes_.size());
         for (std::size_t i = 0; i < wishes_.size(); ++i) {
           const Job& wish = wishes_[i];
-          jobs.push_back({wish, i, make_integrator(wish.scene->render.integrator), Film(wish.width, wish.height)});
+          jobs.push_back({wish, i, make_integrator(wish.scene->render.integrator), std::move(films[i])});
         }
         continue;
       }
@@ -109,6 +113,13 @@ void Engine::account(Progress& job, Clock::time_point start) {
   add(job.statistics, totals);
   job.statistics.wall_seconds += seconds_since(start);
   job.statistics.threads = pool_.threads();
+}
+
+void Engine::start_film(Progress& job) {
+  if (job.film.width() != job.job.width || job.film.height() != job.job.height)
+    job.film.resize(job.job.width, job.job.height);
+  else
+    pool_.run(job.job.height, [&](int y, Worker&) { job.film.clear_row(y); });
 }
 
 void Engine::render_next(Progress& job) {
@@ -142,6 +153,7 @@ void Engine::render_next(Progress& job) {
     }
   } else {
     const auto sample = static_cast<std::uint32_t>(job.statistics.samples_per_pixel);
+    if (sample == 0) start_film(job);
     complete = render_pass(scene, *job.integrator, sample, job.film, pool_, [this] { return wishes_changed(); });
     account(job, start);
     if (complete) {

@@ -69,6 +69,7 @@ class Engine {
   void direct(const std::stop_token& stop);
   bool wishes_changed() const;
   void render_next(Progress& job);
+  void start_film(Progress& job);
   void publish(Progress& job, Image image, int divisor);
   void account(Progress& job, std::chrono::steady_clock::time_point start);
 

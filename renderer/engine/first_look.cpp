@@ -75,7 +75,7 @@ double density_scale_for(const Scene& scene, double target) {
   return target / static_cast<double>(*p90);
 }
 
-Result<FirstLook> first_look(const std::string& path, GridCache& grids, const LoadOptions& options) {
+Result<FirstLook> first_look(const std::string& path, SceneCache& cache, const LoadOptions& options) {
   const auto infos = list_grids(path, false);
   if (!infos) return infos.error();
   const auto density = guess_density_grid(*infos);
@@ -104,7 +104,7 @@ Result<FirstLook> first_look(const std::string& path, GridCache& grids, const Lo
 
   // Framed from the front, a little from above.
   Node& camera = scene.child("camera");
-  auto made = make_volume(volume, {}, grids, options);
+  auto made = make_volume(volume, {}, cache.grids, options);
   if (!made) return made.error();
   must(camera.set("look_at", Numbers{0, 0, 0}));
   must(camera.set("position", Numbers{0.25, -1, 0.2}));
@@ -112,7 +112,7 @@ Result<FirstLook> first_look(const std::string& path, GridCache& grids, const Lo
   frame_bounds(camera, made->bounds, resolution[0] / resolution[1]);
 
   const auto committed =
-      commit(scene, grids, {.generation = 0, .progress = options.progress, .cancel = options.cancel});
+      commit(scene, cache, {.generation = 0, .progress = options.progress, .cancel = options.cancel});
   if (!committed) return committed.error();
   constexpr double kTargetOpticalDepth = 4;  // dense enough to have a lit and a dark side, thin enough to see into
   const double scale = two_digits(density_scale_for(**committed, kTargetOpticalDepth));

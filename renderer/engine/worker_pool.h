@@ -14,7 +14,7 @@
 namespace brume {
 
 /// What one render thread owns: nothing in it is shared while a loop runs.
-struct Worker {
+struct alignas(128) Worker {  // two cache lines, which are fetched in pairs: no thread writes to another's
   Arena arena;
   RayStatistics statistics;
   double cpu_seconds = 0;  ///< of this thread, inside loops

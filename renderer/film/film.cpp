@@ -33,6 +33,11 @@ void Film::resize(int width, int height) {
 
 void Film::clear() { std::fill(pixels_.begin(), pixels_.end(), Pixel{}); }
 
+void Film::clear_row(int y) {
+  const auto row = pixels_.begin() + static_cast<std::ptrdiff_t>(y) * width_;
+  std::fill(row, row + width_, Pixel{});
+}
+
 bool Film::add_sample(int x, int y, Color sample) {
   BRUME_DCHECK(x, >=, 0);
   BRUME_DCHECK(x, <, width_);

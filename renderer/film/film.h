@@ -33,6 +33,8 @@ class Film {
   void resize(int width, int height);
   /// Forgets all samples, keeps the extents and the memory.
   void clear();
+  /// The same for one row; different rows at the same time.
+  void clear_row(int y);
 
   /// Adds one radiance sample to pixel (x, y), x in [0, width), y in [0, height).
   /// @return false when a channel is NaN or infinite: the sample is dropped and the pixel left as it was. The caller
