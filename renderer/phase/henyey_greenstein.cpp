@@ -1,5 +1,7 @@
 #include "renderer/phase/henyey_greenstein.h"
 
+#include "renderer/sampling/warps.h"
+
 namespace brume {
 
 HenyeyGreenstein::HenyeyGreenstein(float g) : g_(std::clamp(g, -0.999f, 0.999f)) {}
@@ -20,11 +22,10 @@ PhaseSample HenyeyGreenstein::sample(Vec3 direction, Vec2 u) const {
   const float g = std::abs(g_);
   const float d = (1 - g) + 2 * g * (1 - u.x);
   const float one_minus_cos = std::min(2.0f, (1 - g) * (1 - g) * u.x * (2 + 2 * g * (1 - u.x)) / (d * d));
-  const float sin_theta = std::sqrt(one_minus_cos * (2 - one_minus_cos));
+  // For g < 0 the angle is taken from the opposite direction.
+  const Vec3 axis = g_ < 0 ? -direction : direction;
   const float cos_theta = std::copysign(1.0f, g_) * (1 - one_minus_cos);
-  const float phi = 2 * kPi * u.y;
-  const Vec3 local{sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta};
-  return {normalize(Frame(direction).to_world(local)), value(cos_theta)};
+  return {direction_about(axis, one_minus_cos, u.y), value(cos_theta)};
 }
 
 }  // namespace brume

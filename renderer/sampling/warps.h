@@ -12,4 +12,22 @@ inline Vec3 uniform_sphere(Vec2 u) {
 }
 constexpr float uniform_sphere_pdf() { return kInv4Pi; }  ///< per sr
 
+/// The direction at the angle theta from `axis`, at the azimuth 2 pi u. Takes 1 - cos(theta), which stays exact where
+/// the cosine itself rounds to 1.
+inline Vec3 direction_about(Vec3 axis, float one_minus_cos, float u) {
+  const float sin_theta = std::sqrt(std::max(0.0f, one_minus_cos * (2 - one_minus_cos))), phi = 2 * kPi * u;
+  return normalize(Frame(axis).to_world({sin_theta * std::cos(phi), sin_theta * std::sin(phi), 1 - one_minus_cos}));
+}
+
+/// Uniform in the cone of directions at most theta from `axis`; pdf 1 / (2 pi (1 - cos(theta))) per sr.
+inline Vec3 uniform_cone(Vec3 axis, float one_minus_cos_max, Vec2 u) {
+  return direction_about(axis, u.x * one_minus_cos_max, u.y);
+}
+
+/// Uniform on the unit disc.
+inline Vec2 uniform_disc(Vec2 u) {
+  const float r = std::sqrt(u.x), phi = 2 * kPi * u.y;
+  return {r * std::cos(phi), r * std::sin(phi)};
+}
+
 }  // namespace brume
