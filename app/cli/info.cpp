@@ -21,7 +21,7 @@ Result<std::string> describe(const InfoOptions& options) {
     if (!grids) return grids.error();
     return options.json ? grids_as_json(options.file, *grids) : grids_as_text(options.file, *grids);
   }
-  GridCache cache;
+  SceneCache cache;
   const auto loaded = load_scene(options.file, cache, {});
   if (!loaded) return loaded.error();
   const auto info = examine_scene(options.file, *loaded, cache);

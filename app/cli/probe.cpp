@@ -79,12 +79,12 @@ Result<ExitCode> run_probe(const ProbeOptions& options) {
     return bad_input("found " + format_value(*options.t_max) + ", expected more than --tmin, which is " +
                          format_value(options.t_min),
                      {"", 0, 0, "--tmax"});
-  GridCache grids;
+  SceneCache cache;
   SceneOptions independent = options.scene;
   independent.settings.push_back({"--ray", "render.sampler", "independent"});
-  const auto loaded = load_scene(independent, grids, {});
+  const auto loaded = load_scene(independent, cache, {});
   if (!loaded) return loaded.error();
-  const auto scene = commit(loaded->description, grids, {});
+  const auto scene = commit(loaded->description, cache, {});
   if (!scene) return scene.error();
   for (const std::string& warning : (*scene)->warnings) print_warning(warning);
   const auto ray = scene_ray(options, **scene);

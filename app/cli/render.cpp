@@ -120,17 +120,17 @@ Result<ExitCode> run_render(const RenderOptions& options) {
   if (auto done = check_outputs(options); !done) return done.error();
 
   const auto start = Clock::now();
-  GridCache grids;
+  SceneCache cache;
   std::shared_ptr<const Scene> scene;
   std::optional<LoadedScene> loaded;
   {
     ProgressLine line("reading");
     const LoadOptions load{.progress = [&](float done) { line.update({done}); }};
-    auto read = load_scene(options.scene, grids, load);
+    auto read = load_scene(options.scene, cache, load);
     if (!read) return read.error();
     loaded = std::move(*read);
     if (auto done = check_size(read_film_settings(loaded->description.child("film"))); !done) return done.error();
-    auto committed = commit(loaded->description, grids, {.progress = load.progress});
+    auto committed = commit(loaded->description, cache, {.progress = load.progress});
     if (!committed) return committed.error();
     scene = *committed;
   }
@@ -158,7 +158,7 @@ Result<ExitCode> run_render(const RenderOptions& options) {
                               statistics,
                               noise,
                               load_seconds,
-                              grid_memory_bytes(loaded->description, grids),
+                              grid_memory_bytes(loaded->description, cache.grids),
                               interrupted};
     if (auto done = write_text_atomically(options.statistics_file, format_report(report)); !done) return done.error();
   }

@@ -71,14 +71,14 @@ Json needs_json(const SceneNeeds& n) {
 
 }  // namespace
 
-Result<SceneInfo> examine_scene(const std::string& file, const LoadedScene& loaded, GridCache& grids) {
-  const auto scene = commit(loaded.description, grids, {});
+Result<SceneInfo> examine_scene(const std::string& file, const LoadedScene& loaded, SceneCache& cache) {
+  const auto scene = commit(loaded.description, cache, {});
   if (!scene) return scene.error();
   SceneInfo info{file, loaded, *scene, {}};
   for (const Node& volume : loaded.description.list("volumes")) {
     Bounds3 bounds;
     if (volume.flag("enabled"))
-      if (const auto made = make_volume(volume, {}, grids, {})) bounds = made->bounds;
+      if (const auto made = make_volume(volume, {}, cache.grids, {})) bounds = made->bounds;
     info.volume_bounds.push_back(bounds);
   }
   return info;

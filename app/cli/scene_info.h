@@ -17,7 +17,7 @@ struct SceneInfo {
 };
 
 /// Reads the grids of the scene, too. Errors are those of committing it.
-Result<SceneInfo> examine_scene(const std::string& file, const LoadedScene& loaded, GridCache& grids);
+Result<SceneInfo> examine_scene(const std::string& file, const LoadedScene& loaded, SceneCache& cache);
 
 std::string scene_as_text(const SceneInfo& info);
 std::string scene_as_json(const SceneInfo& info);

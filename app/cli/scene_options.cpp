@@ -35,8 +35,8 @@ Result<void> apply_setting(Node& description, const Setting& setting) {
   return {};
 }
 
-Result<LoadedScene> load_scene(const SceneOptions& options, GridCache& grids, const LoadOptions& load_options) {
-  auto scene = load_scene(options.file, grids, load_options);
+Result<LoadedScene> load_scene(const SceneOptions& options, SceneCache& cache, const LoadOptions& load_options) {
+  auto scene = load_scene(options.file, cache, load_options);
   if (!scene) return scene;
   for (const Setting& setting : options.settings)
     if (auto done = apply_setting(scene->description, setting); !done) return done.error();

@@ -28,6 +28,6 @@ Result<Setting> parse_setting(const std::string& text);
 Result<void> apply_setting(Node& description, const Setting& setting);
 
 /// Loads the file and applies the settings.
-Result<LoadedScene> load_scene(const SceneOptions& options, GridCache& grids, const LoadOptions& load_options);
+Result<LoadedScene> load_scene(const SceneOptions& options, SceneCache& cache, const LoadOptions& load_options);
 
 }  // namespace brume

@@ -40,10 +40,10 @@ template <class File> Result<ImageMetadata> metadata_of(const Result<File>& file
 
 }  // namespace
 
-Result<LoadedScene> load_scene(const std::string& path, GridCache& grids, const LoadOptions& options) {
+Result<LoadedScene> load_scene(const std::string& path, SceneCache& cache, const LoadOptions& options) {
   const std::string kind = extension(path);
   if (kind == ".vdb" || kind == ".nvdb") {
-    auto look = first_look(absolute(path), grids, options);
+    auto look = first_look(absolute(path), cache, options);
     if (!look) return look.error();
     return LoadedScene{std::move(look->description), "", std::move(look->notes)};
   }

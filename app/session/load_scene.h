@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "renderer/engine/engine.h"
-#include "renderer/media/grid_cache.h"
+#include "renderer/scene/scene_cache.h"
 #include "renderer/params/node.h"
 
 namespace brume {
@@ -18,7 +18,7 @@ struct LoadedScene {
 
 /// FILE.json; a grid file (.vdb, .nvdb), through first_look(); or a picture that Brume wrote (.exr, .png), which holds
 /// its scene.
-Result<LoadedScene> load_scene(const std::string& path, GridCache& grids, const LoadOptions& options);
+Result<LoadedScene> load_scene(const std::string& path, SceneCache& cache, const LoadOptions& options);
 
 /// Linear values (.exr) or display values by the film's exposure and curve (.png), with the scene inside and, under
 /// "samples_per_pixel", what was spent on it.

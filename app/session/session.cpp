@@ -218,7 +218,7 @@ Session::Outcome Session::fulfil(const Wish& wish, const std::stop_token& cancel
   out.wish = wish;
   const auto progress = [this](float p) { progress_ = p; };
   if (!wish.open.empty()) {
-    auto loaded = load_scene(wish.open, grids_, {.progress = progress, .cancel = cancel});
+    auto loaded = load_scene(wish.open, cache_, {.progress = progress, .cancel = cancel});
     if (!loaded) {
       out.error = loaded.error();
       return out;
@@ -226,7 +226,7 @@ Session::Outcome Session::fulfil(const Wish& wish, const std::stop_token& cancel
     out.loaded = std::move(*loaded);
   }
   const Node& description = out.loaded ? out.loaded->description : *wish.description;
-  auto scene = commit(description, grids_, {.generation = wish.generation, .progress = progress, .cancel = cancel});
+  auto scene = commit(description, cache_, {.generation = wish.generation, .progress = progress, .cancel = cancel});
   for (const Node& volume : description.list("volumes")) {
     if (!volume.table().find("file") || volume.text("file").empty()) continue;
     if (auto infos = list_grids(volume.text("file"), false)) out.grid_infos[volume.text("file")] = std::move(*infos);
@@ -262,7 +262,7 @@ void Session::take(Outcome outcome) {
   if (!scene_ || scene_->warnings != outcome.scene->warnings)
     for (const std::string& warning : outcome.scene->warnings) say(LogLevel::Warning, warning);
   scene_ = std::move(outcome.scene);
-  grids_.drop_unused();
+  cache_.drop_unused();
   submit();
 }
 

@@ -127,7 +127,7 @@ class Session {
   std::deque<Message> messages_;
   std::map<std::string, std::vector<GridInfo>> grid_infos_;
 
-  GridCache grids_;
+  SceneCache cache_;
   Engine engine_;
 
   mutable std::mutex mutex_;  // guards what follows

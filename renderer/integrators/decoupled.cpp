@@ -2,6 +2,7 @@
 
 #include "renderer/integrators/direct_light.h"
 #include "renderer/integrators/registry.h"
+#include "renderer/integrators/scatter_direction.h"
 #include "renderer/march/density_sampling.h"
 #include "renderer/march/distribute.h"
 
@@ -73,9 +74,9 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
     const RayPoint<C> at = evaluate(rec, drawn.t);
     const float pdf = density.pdf(at);
     if (!(pdf > 0)) return radiance;
-    const auto scattered = PhaseMixture<C>(scene, rec, at.segment)
-                               .sample(ray.direction, sampler.u1(Decision::BounceLobe, bounce),
-                                       sampler.u2(Decision::BounceDirection, bounce));
+    const Vec3 x = ray.at(drawn.t);
+    const PhaseMixture<C> phase(scene, rec, at.segment, context.arena);
+    const auto scattered = scatter_direction(phase, x, ray.direction, bounce, context);
     Spectrum<C> factor;
     for (int c = 0; c < C; ++c) factor[c] = at.sigma_s[c] * at.transmittance[c] / pdf * scattered.weight[c];
     beta *= to_color(factor);
@@ -85,7 +86,7 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
       if (sampler.u1(Decision::Roulette, bounce) >= survival) return radiance;
       beta *= 1 / survival;
     }
-    ray = {ray.at(drawn.t), scattered.direction};  // without a third {}, which would be an empty span
+    ray = {x, scattered.direction};  // without a third {}, which would be an empty span
   }
 }
 

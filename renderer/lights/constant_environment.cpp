@@ -2,10 +2,10 @@
 
 namespace brume {
 
-LightPoint ConstantEnvironment::sample_point(Vec2) const { return {LightPoint::Kind::Environment, {}, {}}; }
+LightPoint ConstantEnvironment::sample_point(Vec2) const { return {LightPoint::Kind::Environment, {}, {}, {}}; }
 
 IncidentLight ConstantEnvironment::incident(const LightPoint& point, Vec3) const {
-  return {point.direction, std::numeric_limits<float>::infinity(), {}};
+  return {point.direction, std::numeric_limits<float>::infinity(), {}, 0};
 }
 
 std::optional<LightHit> ConstantEnvironment::hit(const Ray& ray) const {

@@ -1,11 +1,38 @@
 #include "renderer/lights/directional_light.h"
 
+#include "renderer/sampling/warps.h"
+
 namespace brume {
 
-LightPoint DirectionalLight::sample_point(Vec2) const { return {LightPoint::Kind::Distant, {}, -travel_}; }
-
-IncidentLight DirectionalLight::incident(const LightPoint&, Vec3) const {
-  return {-travel_, std::numeric_limits<float>::infinity(), irradiance_};
+namespace {
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 }
+
+DirectionalLight::DirectionalLight(Vec3 travel, Color irradiance, float angular_diameter)
+    : travel_(travel), irradiance_(irradiance) {
+  const float s = std::sin(angular_diameter / 4);
+  one_minus_cos_ = 2 * s * s;
+}
+
+LightPoint DirectionalLight::sample_point(Vec2 u) const {
+  return {LightPoint::Kind::Distant, {}, one_minus_cos_ > 0 ? uniform_cone(-travel_, one_minus_cos_, u) : -travel_, {}};
+}
+
+IncidentLight DirectionalLight::incident(const LightPoint& point, Vec3) const {
+  if (one_minus_cos_ == 0) return {point.direction, kInfinity, irradiance_};
+  // L / pdf = E / (pi sin^2) * 2 pi (1 - cos) = 2 E / (1 + cos).
+  return {point.direction, kInfinity, irradiance_ * (2 / (2 - one_minus_cos_)), 1 / (2 * kPi * one_minus_cos_)};
+}
+
+std::optional<LightHit> DirectionalLight::hit(const Ray& ray) const {
+  if (one_minus_cos_ == 0 || ray.span.end != kInfinity) return std::nullopt;
+  // 1 - cos of the angle to the middle, from the distance between the unit vectors: small discs keep their shape.
+  if (0.5f * length_squared(ray.direction + travel_) > one_minus_cos_) return std::nullopt;
+  const Color radiance = irradiance_ / (kPi * one_minus_cos_ * (2 - one_minus_cos_));
+  return LightHit{
+      kInfinity, radiance, 1 / (2 * kPi * one_minus_cos_), {LightPoint::Kind::Distant, {}, ray.direction, {}}};
+}
+
+float DirectionalLight::solid_angle(Vec3) const { return 2 * kPi * one_minus_cos_; }
 
 }  // namespace brume

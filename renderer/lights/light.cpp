@@ -6,4 +6,6 @@ Interval Light::lit_part(const LightPoint&, const Ray& ray) const { return ray.s
 
 std::optional<LightHit> Light::hit(const Ray&) const { return std::nullopt; }
 
+float Light::solid_angle(Vec3) const { return 0; }
+
 }  // namespace brume

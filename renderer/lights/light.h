@@ -11,13 +11,14 @@ namespace brume {
 /// point that the shadow ray goes to (for a large near light the centre would be far worse).
 struct LightPoint {
   enum class Kind {
-    Finite,       ///< `position` counts
+    Finite,       ///< `position` counts, and `normal` on lights with a surface
     Distant,      ///< `direction` counts: unit, from the scene towards the light
     Environment,  ///< the direction is still open: the phase function draws it
   };
   Kind kind = Kind::Finite;
   Vec3 position;
   Vec3 direction;
+  Vec3 normal;  ///< unit, of the lit side
 };
 
 /// Light arriving at a point from a LightPoint.
@@ -25,12 +26,15 @@ struct IncidentLight {
   Vec3 wi;           ///< unit, from the point towards the light
   float distance;    ///< world units; infinite for distant lights
   Color irradiance;  ///< normal irradiance, W/m^2, divided by the pdf of the light point, before any transmittance
+  float pdf_w = 0;   ///< with which sample_point() chooses this direction, per sr; 0: a single direction
 };
 
-/// A ray meeting a light that the camera can see.
+/// A ray meeting a light.
 struct LightHit {
-  float t;         ///< infinite for environments
-  Color radiance;  ///< W/(sr m^2)
+  float t;          ///< infinite for environments
+  Color radiance;   ///< W/(sr m^2)
+  float pdf_w = 0;  ///< with which sample_point() would have chosen this direction from the ray's origin, per sr
+  LightPoint point = {};
 };
 
 /// Immutable; any thread.
@@ -47,11 +51,14 @@ class Light {
   /// The part of the ray that `point` can light at all (one side of a quad, the inside of a cone).
   virtual Interval lit_part(const LightPoint& point, const Ray& ray) const;
 
-  /// Radiance of an environment; black for every other light.
+  /// Radiance of an environment that is the same all around; black for every other light.
   virtual Color environment_radiance() const { return {}; }
 
   /// Where a ray hits the light and what it sees there.
   virtual std::optional<LightHit> hit(const Ray& ray) const;
+
+  /// How large the light looks from x, sr, roughly; 0 for lights that no ray can hit.
+  virtual float solid_angle(Vec3 x) const;
 
   bool visible_to_camera = false;
 };

@@ -2,7 +2,7 @@
 
 namespace brume {
 
-LightPoint PointLight::sample_point(Vec2) const { return {LightPoint::Kind::Finite, position_, {}}; }
+LightPoint PointLight::sample_point(Vec2) const { return {LightPoint::Kind::Finite, position_, {}, {}}; }
 
 IncidentLight PointLight::incident(const LightPoint&, Vec3 x) const {
   const Vec3 to_light = position_ - x;

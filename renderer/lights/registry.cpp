@@ -3,13 +3,15 @@
 #include "renderer/core/check.h"
 #include "renderer/lights/constant_environment.h"
 #include "renderer/lights/directional_light.h"
+#include "renderer/lights/disc_light.h"
+#include "renderer/lights/image_environment.h"
 #include "renderer/lights/point_light.h"
 #include "renderer/lights/quad_light.h"
+#include "renderer/lights/sphere_light.h"
+#include "renderer/lights/spot_light.h"
 
 namespace brume {
 namespace {
-
-using LightResult = Result<std::unique_ptr<Light>>;
 
 /// What every light has, before what makes it special.
 ParamTable light_table(std::string key, std::string label, std::string doc, bool visible, std::vector<Param> own) {
@@ -30,6 +32,49 @@ const ParamTable& point_table() {
   return table;
 }
 
+const ParamTable& spot_table() {
+  static const ParamTable table = light_table(
+      "spot", "Spot light", "Shines from one point into a cone, with a soft edge.", false,
+      {param::point("position", "Position", 0, 0, 3).says("Where the light is."),
+       param::vector("direction", "Direction", 0, 0, -1).says("The axis of the cone; any length."),
+       param::number("cone_deg", "Cone", 30)
+           .between(0.01, 90)
+           .in("degrees")
+           .says("Angle between the axis and the edge of the cone."),
+       param::number("blend", "Blend", 0.3).between(0, 1).says("Share of the cone over which the light falls to 0."),
+       param::color("intensity", "Intensity", 40, 40, 40)
+           .slider(0, 400)
+           .in("W/sr")
+           .says("Radiant intensity along the axis.")});
+  return table;
+}
+
+Param radiance_param(double value) {
+  return param::color("radiance", "Radiance", value, value, value)
+      .slider(0, 50)
+      .in("W/(sr m^2)")
+      .says("Radiance of the lit side.");
+}
+
+const ParamTable& disc_table() {
+  static const ParamTable table = light_table(
+      "disc", "Disc light", "A glowing flat disc that shines along its normal.", false,
+      {param::point("center", "Centre", 0, 0, 3).says("The middle of the disc."),
+       param::vector("normal", "Normal", 0, 0, -1).says("The way the lit side faces; any length."),
+       param::number("radius", "Radius", 0.5).more_than(0).slider(0.01, 5).in("world units").says("Of the disc."),
+       radiance_param(4), param::flag("two_sided", "Two-sided", false).says("Whether the other side shines too.")});
+  return table;
+}
+
+const ParamTable& sphere_table() {
+  static const ParamTable table = light_table(
+      "sphere", "Sphere light", "A glowing ball that shines outwards.", false,
+      {param::point("center", "Centre", 0, 0, 3).says("The middle of the sphere."),
+       param::number("radius", "Radius", 0.3).more_than(0).slider(0.01, 5).in("world units").says("Of the sphere."),
+       radiance_param(10)});
+  return table;
+}
+
 const ParamTable& quad_table() {
   static const ParamTable table = light_table(
       "quad", "Quad light", "A glowing parallelogram that shines along cross(edge_u, edge_v).", false,
@@ -43,13 +88,18 @@ const ParamTable& quad_table() {
 
 const ParamTable& directional_table() {
   static const ParamTable table =
-      light_table("directional", "Directional light", "Parallel light from infinitely far away, like the sun.", false,
+      light_table("directional", "Directional light", "Light from infinitely far away, like the sun.", false,
                   {param::vector("direction", "Direction", 0.5, 0.5, -1).says("The way the light travels; any length."),
+                   param::number("angular_diameter_deg", "Angular diameter", 0)
+                       .between(0, 180)
+                       .slider(0, 10)
+                       .in("degrees")
+                       .says("How large the light looks: 0 is parallel light, the sun has 0.53; only a light with a "
+                             "size can be seen."),
                    param::color("irradiance", "Irradiance", 3, 3, 3)
                        .slider(0, 20)
                        .in("W/m^2")
                        .says("On a plane facing the light.")});
-  // A direction is no place to see: the camera never meets this light.
   return table;
 }
 
@@ -63,37 +113,104 @@ const ParamTable& environment_table() {
   return table;
 }
 
-Vec3 placed(const Node& n, std::string_view key, Vec3d origin) { return Vec3(n.vec3(key) - origin); }
-
-LightResult make_point(const Node& n, Vec3d origin) {
-  return std::unique_ptr<Light>(std::make_unique<PointLight>(placed(n, "position", origin), n.color("intensity")));
+const ParamTable& image_environment_table() {
+  static const ParamTable table = light_table(
+      "image_environment", "Picture environment", "Light from a picture of all the surroundings.", true,
+      {param::file("file", "Picture")
+           .must_be_given()
+           .says("An equirectangular picture (.exr or .hdr): its middle is seen along +x, its upper edge is +z."),
+       param::color("radiance", "Radiance", 1, 1, 1)
+           .slider(0, 5)
+           .in("W/(sr m^2)")
+           .says("Radiance where the picture is 1."),
+       param::number("rotate_deg", "Rotate", 0).slider(-180, 180).in("degrees").says("Turn about the z axis.")});
+  return table;
 }
 
-LightResult make_quad(const Node& n, Vec3d origin) {
+Vec3 placed(const Node& n, std::string_view key, Vec3d origin) { return Vec3(n.vec3(key) - origin); }
+
+float number(const Node& n, const char* key) { return static_cast<float>(n.number(key)); }
+
+constexpr float kRadians = kPi / 180;
+
+template <class Kind, class... Args> Result<MadeLight> made(Args&&... args) {
+  return MadeLight{std::make_unique<Kind>(std::forward<Args>(args)...)};
+}
+
+/// A unit vector from one of any length.
+Result<Vec3> unit(const Node& n, const char* key) {
+  const Vec3d d = n.vec3(key);
+  if (!(length(d) > 0)) return bad_input("found [0, 0, 0], expected a direction", {"", 0, 0, key});
+  return Vec3(normalize(d));
+}
+
+Result<MadeLight> make_point(const Node& n, const LightContext& c) {
+  return made<PointLight>(placed(n, "position", c.scene_origin), n.color("intensity"));
+}
+
+Result<MadeLight> make_spot(const Node& n, const LightContext& c) {
+  const auto axis = unit(n, "direction");
+  if (!axis) return axis.error();
+  return made<SpotLight>(placed(n, "position", c.scene_origin), *axis, number(n, "cone_deg") * kRadians,
+                         number(n, "blend"), n.color("intensity"));
+}
+
+Result<MadeLight> make_quad(const Node& n, const LightContext& c) {
   const Vec3d u = n.vec3("edge_u"), v = n.vec3("edge_v");
   if (!(length(cross(u, v)) > 0))
     return bad_input("found two parallel or zero edges, expected edges that span an area", {"", 0, 0, "edge_v"});
-  return std::unique_ptr<Light>(std::make_unique<QuadLight>(placed(n, "corner", origin), Vec3(u), Vec3(v),
-                                                            n.color("radiance"), n.flag("two_sided")));
+  return made<QuadLight>(placed(n, "corner", c.scene_origin), Vec3(u), Vec3(v), n.color("radiance"),
+                         n.flag("two_sided"));
 }
 
-LightResult make_directional(const Node& n, Vec3d) {
-  const Vec3d d = n.vec3("direction");
-  if (!(length(d) > 0)) return bad_input("found [0, 0, 0], expected a direction", {"", 0, 0, "direction"});
-  return std::unique_ptr<Light>(std::make_unique<DirectionalLight>(Vec3(normalize(d)), n.color("irradiance")));
+Result<MadeLight> make_disc(const Node& n, const LightContext& c) {
+  const auto normal = unit(n, "normal");
+  if (!normal) return normal.error();
+  return made<DiscLight>(placed(n, "center", c.scene_origin), *normal, number(n, "radius"), n.color("radiance"),
+                         n.flag("two_sided"));
 }
 
-LightResult make_environment(const Node& n, Vec3d) {
-  return std::unique_ptr<Light>(std::make_unique<ConstantEnvironment>(n.color("radiance")));
+Result<MadeLight> make_sphere(const Node& n, const LightContext& c) {
+  return made<SphereLight>(placed(n, "center", c.scene_origin), number(n, "radius"), n.color("radiance"));
+}
+
+Result<MadeLight> make_directional(const Node& n, const LightContext&) {
+  const auto direction = unit(n, "direction");
+  if (!direction) return direction.error();
+  return made<DirectionalLight>(*direction, n.color("irradiance"), number(n, "angular_diameter_deg") * kRadians);
+}
+
+Result<MadeLight> make_environment(const Node& n, const LightContext&) {
+  return made<ConstantEnvironment>(n.color("radiance"));
+}
+
+Result<MadeLight> make_image_environment(const Node& n, const LightContext& c) {
+  const std::string& file = n.text("file");
+  if (file.empty()) return bad_input("found no file name, expected a picture in .exr or .hdr", {"", 0, 0, "file"});
+  const auto map = c.pictures.load(file, EnvironmentMap::read);
+  if (!map) {
+    Error error = map.error();
+    error.source.key = "file";
+    return error;
+  }
+  MadeLight out{std::make_unique<ImageEnvironment>(*map, n.color("radiance"), number(n, "rotate_deg") * kRadians)};
+  if ((*map)->mended() > 0)
+    out.warnings.push_back(file + ": " + std::to_string((*map)->mended()) +
+                           " values were negative or not finite and count as 0");
+  return out;
 }
 
 }  // namespace
 
 const std::vector<LightType>& light_types() {
   static const std::vector<LightType> types{{&point_table(), make_point},
-                                            {&quad_table(), make_quad},
+                                            {&spot_table(), make_spot},
                                             {&directional_table(), make_directional},
-                                            {&environment_table(), make_environment}};
+                                            {&quad_table(), make_quad},
+                                            {&disc_table(), make_disc},
+                                            {&sphere_table(), make_sphere},
+                                            {&environment_table(), make_environment},
+                                            {&image_environment_table(), make_image_environment}};
   return types;
 }
 
@@ -106,16 +223,15 @@ const Family& light_family() {
   return family;
 }
 
-Result<std::unique_ptr<const Light>> make_light(const Node& node, Vec3d scene_origin) {
+Result<MadeLight> make_light(const Node& node, const LightContext& context) {
   for (const LightType& t : light_types()) {
     if (t.table != &node.table()) continue;
-    LightResult light = t.make(node, scene_origin);
-    if (!light) return light.error();
-    (*light)->visible_to_camera = node.flag("visible_to_camera");
-    return std::unique_ptr<const Light>(std::move(*light));
+    auto made = t.make(node, context);
+    if (made) made->light->visible_to_camera = node.flag("visible_to_camera");
+    return made;
   }
   BRUME_CHECK(node.kind(), ==, "a light");
-  return std::unique_ptr<const Light>();
+  return MadeLight{};
 }
 
 }  // namespace brume

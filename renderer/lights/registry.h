@@ -3,21 +3,33 @@
 
 #include <memory>
 
+#include "renderer/core/file_cache.h"
+#include "renderer/lights/environment_map.h"
 #include "renderer/lights/light.h"
 #include "renderer/params/node.h"
 
 namespace brume {
 
+/// What making a light needs besides its description.
+struct LightContext {
+  Vec3d scene_origin;  ///< world position that is (0,0,0) of the scene
+  FileCache<EnvironmentMap>& pictures;
+};
+
+struct MadeLight {
+  std::unique_ptr<Light> light;
+  std::vector<std::string> warnings = {};
+};
+
 struct LightType {
   const ParamTable* table;
-  /// @param scene_origin  world position that is (0,0,0) of the scene
-  Result<std::unique_ptr<Light>> (*make)(const Node&, Vec3d scene_origin);
+  Result<MadeLight> (*make)(const Node&, const LightContext&);
 };
 
 const std::vector<LightType>& light_types();
 const Family& light_family();
 
 /// @param node  of one of light_types(); errors name the key
-Result<std::unique_ptr<const Light>> make_light(const Node& node, Vec3d scene_origin);
+Result<MadeLight> make_light(const Node& node, const LightContext& context);
 
 }  // namespace brume

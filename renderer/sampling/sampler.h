@@ -28,7 +28,10 @@ enum class Decision : std::uint32_t {
   BounceLobe,
   BounceDirection,  // 2D
   Roulette,
-  TechniquePhase,  // which technique a pixel starts with when they alternate between passes
+  TechniquePhase,   // which technique a pixel starts with when they alternate between passes
+  LightByChance,    // whether a light is looked for by chance; per light sample
+  BounceTechnique,  // whether a scattered ray goes about a lamp, and about which
+  BounceLampPoint,  // 2D: the place on that lamp; per lamp
 };
 
 /// Random numbers of one sample of one pixel. A pure function of its arguments: no state advances, so results do not

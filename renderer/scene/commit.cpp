@@ -65,6 +65,23 @@ SceneNeeds needs_of(const Scene& scene) {
   return needs;
 }
 
+/// Point lights inside the media or as near to them as a twentieth of their size.
+std::vector<const Light*> lamps_inside(const Scene& scene) {
+  std::vector<const Light*> lamps;
+  if (scene.bounds.empty()) return lamps;
+  const Vec3d margin(0.05 * scene.bounds.diagonal());
+  const Vec3d low = scene.bounds.low - margin, high = scene.bounds.high + margin;
+  for (const auto& light : scene.lights) {
+    const LightPoint point = light->sample_point({0.5f, 0.5f});
+    const Vec3d p(point.position);
+    const bool inside = min(p, low) == low && max(p, high) == high;
+    if (point.kind == LightPoint::Kind::Finite && light->solid_angle(point.position) == 0 && inside &&
+        lamps.size() < Scene::kMaxLampsInside)
+      lamps.push_back(light.get());
+  }
+  return lamps;
+}
+
 /// The finest scale of the media; any number where no medium is marched.
 float automatic_step(const Scene& scene) {
   float step = std::numeric_limits<float>::infinity();
@@ -76,20 +93,20 @@ float automatic_step(const Scene& scene) {
 
 }  // namespace
 
-Result<std::shared_ptr<const Scene>> commit(const Node& description, GridCache& grids, const CommitOptions& options) {
+Result<std::shared_ptr<const Scene>> commit(const Node& description, SceneCache& cache, const CommitOptions& options) {
   const LoadOptions load{.progress = options.progress, .cancel = options.cancel};
   auto scene = std::make_shared<Scene>();
   scene->generation = options.generation;
   scene->film = read_film_settings(description.child("film"));
   scene->render = read_render_settings(description.child("render"));
 
-  auto volumes = make_volumes(description, {}, grids, load);
+  auto volumes = make_volumes(description, {}, cache.grids, load);
   if (!volumes) return volumes.error();
   scene->bounds = bounds_of(*volumes);
   // Near the world's origin coordinates stay as written.
   if (!scene->bounds.empty() && length(scene->bounds.center()) > 16 * scene->bounds.diagonal()) {
     scene->origin = scene->bounds.center();
-    volumes = make_volumes(description, scene->origin, grids, load);
+    volumes = make_volumes(description, scene->origin, cache.grids, load);
     if (!volumes) return volumes.error();
     scene->bounds = bounds_of(*volumes);
   }
@@ -102,15 +119,19 @@ Result<std::shared_ptr<const Scene>> commit(const Node& description, GridCache& 
   const auto lights = description.list("lights");
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (!lights[i].flag("enabled")) continue;
-    auto light = make_light(lights[i], scene->origin);
-    if (!light) return at(element_path("lights", i, lights[i]), light.error());
-    scene->lights.push_back(std::move(*light));
+    auto made = make_light(lights[i], {scene->origin, cache.pictures});
+    if (!made) return at(element_path("lights", i, lights[i]), made.error());
+    scene->lights.push_back(std::move(made->light));
+    scene->warnings.insert(scene->warnings.end(), made->warnings.begin(), made->warnings.end());
   }
 
   auto camera = make_camera(description.child("camera"), scene->origin);
   if (!camera) return at("camera", camera.error());
   scene->camera = *camera;
 
+  for (const auto& phase : scene->phases)
+    scene->phase_peak = std::max({scene->phase_peak, phase->value(1), phase->value(-1)});
+  scene->lamps_inside = lamps_inside(*scene);
   scene->needs = needs_of(*scene);
   scene->step_size = scene->render.step_size.value_or(automatic_step(*scene));
   scene->shadow_step_size = scene->render.shadow_step_size.value_or(scene->step_size);

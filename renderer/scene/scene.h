@@ -9,9 +9,9 @@
 #include "renderer/camera/pinhole_camera.h"
 #include "renderer/core/log.h"
 #include "renderer/lights/light.h"
-#include "renderer/media/grid_cache.h"
 #include "renderer/media/medium.h"
 #include "renderer/phase/phase_function.h"
+#include "renderer/scene/scene_cache.h"
 #include "renderer/scene/scene_needs.h"
 #include "renderer/scene/settings.h"
 
@@ -19,6 +19,8 @@ namespace brume {
 
 /// A committed description. Never changes; readers hold a shared_ptr<const Scene>.
 struct Scene {
+  static constexpr int kMaxLampsInside = 8;
+
   std::uint64_t generation = 0;  ///< of the edit that it shows; a later edit has a higher number
   PinholeCamera camera;
   FilmSettings film;
@@ -29,6 +31,9 @@ struct Scene {
   std::vector<Medium> media;                                 // enabled volumes
   std::vector<std::unique_ptr<const PhaseFunction>> phases;  ///< of the media, in their order
   std::vector<std::unique_ptr<const Light>> lights;          // enabled lights
+  std::vector<const Light*>
+      lamps_inside;      ///< lights with a place in or near a medium, none with a surface, at most kMaxLampsInside
+  float phase_peak = 0;  ///< largest value of any phase function, 1/sr
 
   SceneNeeds needs;
   Bounds3 bounds;  ///< of all media, scene space; empty when there are none
@@ -48,7 +53,7 @@ struct CommitOptions {
 
 /// Makes the scene that a description describes. Heavy parts come from the cache when they are known.
 /// @param description  of the scene family.  Errors name the key: "volumes.plume.file".
-Result<std::shared_ptr<const Scene>> commit(const Node& description, GridCache& grids, const CommitOptions& options);
+Result<std::shared_ptr<const Scene>> commit(const Node& description, SceneCache& cache, const CommitOptions& options);
 
 /// Tables of the whole description. The render settings' family is handed in by the integrators, which are above.
 ParamTable scene_table(const Family& render_family);

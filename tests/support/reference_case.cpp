@@ -364,8 +364,8 @@ Result<ReferenceProbe> ReferenceProbe::make(const ReferenceCase& c, const Refere
                                             const ReferenceSettings& settings) {
   const auto description = describe(c, quantity, settings);
   if (!description) return description.error();
-  GridCache grids;
-  auto scene = commit(*description, grids, {});
+  SceneCache cache;
+  auto scene = commit(*description, cache, {});
   if (!scene) return scene.error();
 
   ReferenceProbe probe;

@@ -39,10 +39,10 @@ Node& add_volume(Node& scene, const std::string& shader) { return add(scene, "vo
 Node& add_light(Node& scene, const std::string& type) { return add(scene, "lights", light_family(), type); }
 
 std::shared_ptr<const Scene> committed(const Node& description, std::uint64_t generation) {
-  GridCache grids;
+  SceneCache cache;
   CommitOptions options;
   options.generation = generation;
-  return must(commit(description, grids, options));
+  return must(commit(description, cache, options));
 }
 
 double RayEstimate::relative_deviation(int c) const { return std::sqrt(channel[c].variance()) / channel[c].mean(); }

@@ -1,5 +1,6 @@
 // Light samples: that they add up to the right light in every arrangement, and how noisy they are.
 #include "renderer/integrators/direct_light.h"
+#include "renderer/integrators/phase_mixture.h"
 
 #include <gtest/gtest.h>
 
@@ -238,14 +239,18 @@ TEST(PhaseMixture, SamplesHaveTheMeanCosineOfTheMixtureAndWeightsThatAverageToOn
     scene.phases.push_back(std::make_unique<HenyeyGreenstein>(g[m]));
   }
   RecordedRay<3> r(media, ray_along_z(-1), 1);
-  const PhaseMixture<3> mixture(scene, *r, 0);
+  Arena arena;
+  const ArenaScope scope(arena);
+  const PhaseMixture<3> mixture(scene, *r, 0, arena);
   const Vec3 incident = normalize(Vec3(1, -2, 2));
   RunningMean weight[3], cosine[3];
   for (std::uint32_t i = 0; i < 200000; ++i) {
     const Sampler random(SamplerKind::Independent, 3, 0, i);
-    const auto s = mixture.sample(incident, random.u1(Decision::PhaseLobe), random.u2(Decision::PhaseDirection));
-    const double c = double(dot(incident, s.direction));
-    for (int k = 0; k < 3; ++k) weight[k].add(double(s.weight[k])), cosine[k].add(double(s.weight[k]) * c);
+    const Vec3 w = mixture.sample(incident, random.u1(Decision::PhaseLobe), random.u2(Decision::PhaseDirection));
+    const float c = dot(incident, w), pdf = mixture.pdf_w(c);
+    const auto value = mixture.value(c);
+    for (int k = 0; k < 3; ++k)
+      weight[k].add(double(value[k] / pdf)), cosine[k].add(double(value[k] / pdf) * double(c));
   }
   const double z = bound(6);
   for (int k = 0; k < 3; ++k) {
@@ -265,11 +270,13 @@ TEST(PhaseMixture, EveryLobeNumberChoosesAMediumThatScatters) {
     scene.phases.push_back(std::make_unique<HenyeyGreenstein>(s.r > 0 ? 0.0f : 0.999f));
   }
   RecordedRay<1> r(media, ray_along_z(-1), 1);
-  const PhaseMixture<1> mixture(scene, *r, 0);
+  Arena arena;
+  const ArenaScope scope(arena);
+  const PhaseMixture<1> mixture(scene, *r, 0, arena);
   for (const float u : {0.0f, 0.3f, 0.66666f, 0.66667f, 0.9f, 0x1.fffffep-1f}) {
-    const auto s = mixture.sample({0, 0, 1}, u, {0.9f, 0.4f});
-    EXPECT_NEAR(s.weight[0], 1, 1e-6) << "u = " << u;
-    EXPECT_LT(s.direction.z, 0) << "u = " << u << " chose a medium that does not scatter";
+    const Vec3 w = mixture.sample({0, 0, 1}, u, {0.9f, 0.4f});
+    EXPECT_NEAR(mixture.value(w.z)[0] / mixture.pdf_w(w.z), 1, 1e-6) << "u = " << u;
+    EXPECT_LT(w.z, 0) << "u = " << u << " chose a medium that does not scatter";
   }
 }
 

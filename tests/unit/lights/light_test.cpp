@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "renderer/film/image_io.h"
 #include "renderer/lights/constant_environment.h"
 #include "renderer/lights/directional_light.h"
 #include "renderer/lights/point_light.h"
@@ -12,6 +13,20 @@
 
 namespace brume {
 namespace {
+
+/// A light as a scene file makes it; the file of a picture is one of a single pixel.
+Result<std::unique_ptr<Light>> make(const Node& node, Vec3d scene_origin = {}) {
+  Node complete = node;
+  if (node.table().find("file")) {
+    const std::string path = testing::TempDir() + "light_test.exr";
+    EXPECT_TRUE(write_exr(path, Image(4, 2, Color(1))).ok());
+    EXPECT_TRUE(complete.set("file", path).ok());
+  }
+  FileCache<EnvironmentMap> pictures;
+  auto made = make_light(complete, {scene_origin, pictures});
+  if (!made) return made.error();
+  return std::move(made->light);
+}
 
 Vec2 random_pair(std::uint32_t i) { return Sampler(SamplerKind::Independent, 4, 1, i).u2(Decision::LightPoint); }
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -150,7 +165,7 @@ TEST(QuadLight, RaysHitItInsideItsEdgesFromItsLitSide) {
 TEST(LightRegistry, EveryKindMadeFromItsDefaultsGivesFiniteLight) {
   for (const LightType& type : light_types()) {
     const Node node(*type.table);
-    const auto light = make_light(node, {});
+    const auto light = make(node);
     ASSERT_TRUE(light.ok()) << type.table->key;
     EXPECT_EQ((*light)->visible_to_camera, node.flag("visible_to_camera"));
     float brightest = max_channel((*light)->environment_radiance());
@@ -179,7 +194,7 @@ TEST(LightRegistry, LightsMoveWithTheOriginOfTheScene) {
       const Vec3d at = here.vec3(p.key) + origin;
       ASSERT_TRUE(far.set(p.key, Numbers{at.x, at.y, at.z}).ok());
     }
-    const auto a = make_light(here, {}), b = make_light(far, origin);
+    const auto a = make(here), b = make(far, origin);
     ASSERT_TRUE(a.ok() && b.ok());
     const LightPoint pa = (*a)->sample_point({0.3f, 0.6f}), pb = (*b)->sample_point({0.3f, 0.6f});
     EXPECT_EQ(pa.position, pb.position) << type.table->key;
@@ -190,13 +205,13 @@ TEST(LightRegistry, LightsMoveWithTheOriginOfTheScene) {
 TEST(LightRegistry, ImpossibleLightsAreRefusedByTheNameOfTheKey) {
   Node quad(*light_family().find("quad"));
   ASSERT_TRUE(quad.set("edge_v", Numbers{0, 2, 0}).ok());  // along edge_u
-  const auto made = make_light(quad, {});
+  const auto made = make(quad);
   ASSERT_FALSE(made.ok());
   EXPECT_EQ(made.error().source.key, "edge_v");
   Node sun(*light_family().find("directional"));
   ASSERT_TRUE(sun.set("direction", Numbers{0, 0, 0}).ok());
-  ASSERT_FALSE(make_light(sun, {}).ok());
-  EXPECT_EQ(make_light(sun, {}).error().source.key, "direction");
+  ASSERT_FALSE(make(sun).ok());
+  EXPECT_EQ(make(sun).error().source.key, "direction");
 }
 
 }  // namespace

@@ -8,8 +8,8 @@ namespace brume {
 namespace {
 
 Result<std::shared_ptr<const Scene>> try_commit(const Node& description) {
-  GridCache grids;
-  return commit(description, grids, {});
+  SceneCache cache;
+  return commit(description, cache, {});
 }
 
 TEST(Commit, AnEmptyDescriptionIsAScene) {

@@ -1,0 +1,68 @@
+#include "renderer/integrators/phase_mixture.h"
+
+namespace brume {
+
+template <int C>
+PhaseMixture<C>::PhaseMixture(const Scene& scene, const MarchRecord<C>& record, int segment, Arena& arena)
+    : scene_(scene) {
+  if (!record.medium_density) return;
+  const auto densities = arena.alloc_span<float>(scene.media.size());
+  for (std::size_t m = 0; m < densities.size(); ++m) densities[m] = record.medium_density[m][segment];
+  densities_ = densities;
+}
+
+template <int C> float PhaseMixture<C>::share(std::size_t m) const {
+  float sum = 0;
+  for (int c = 0; c < C; ++c) sum += share(m, c);
+  return sum;
+}
+
+template <int C> Spectrum<C> PhaseMixture<C>::value(float cos_theta) const {
+  Spectrum<C> result;
+  if (single()) {
+    const float p = scene_.phases[0]->value(cos_theta);
+    for (float& v : result.v) v = p;
+    return result;
+  }
+  Spectrum<C> sum;
+  for (std::size_t m = 0; m < densities_.size(); ++m) {
+    if (densities_[m] == 0) continue;
+    const float p = scene_.phases[m]->value(cos_theta);
+    for (int c = 0; c < C; ++c) result[c] += share(m, c) * p, sum[c] += share(m, c);
+  }
+  for (int c = 0; c < C; ++c) result[c] = sum[c] > 0 ? result[c] / sum[c] : 0;
+  return result;
+}
+
+template <int C> float PhaseMixture<C>::pdf_w(float cos_theta) const {
+  if (single()) return scene_.phases[0]->value(cos_theta);
+  float sum = 0, total = 0;
+  for (std::size_t m = 0; m < densities_.size(); ++m) {
+    const float here = share(m);
+    if (here == 0) continue;
+    sum += here * scene_.phases[m]->value(cos_theta);
+    total += here;
+  }
+  return total > 0 ? sum / total : 0;
+}
+
+template <int C> Vec3 PhaseMixture<C>::sample(Vec3 direction, float u_lobe, Vec2 u) const {
+  std::size_t chosen = 0;
+  if (!single()) {
+    float total = 0;
+    for (std::size_t m = 0; m < densities_.size(); ++m) total += share(m);
+    float rest = u_lobe * total;
+    for (std::size_t m = 0; m < densities_.size(); ++m) {
+      if (share(m) == 0) continue;
+      chosen = m;  // the last one that scatters, where rounding leaves a rest
+      if (rest < share(m)) break;
+      rest -= share(m);
+    }
+  }
+  return scene_.phases[chosen]->sample(direction, u).direction;
+}
+
+template class PhaseMixture<1>;
+template class PhaseMixture<3>;
+
+}  // namespace brume

@@ -1,0 +1,38 @@
+// Phase function at one point of a ray: of one medium, or of several mixed by what each scatters there.
+#pragma once
+
+#include "renderer/core/spectrum.h"
+#include "renderer/march/march_record.h"
+#include "renderer/scene/scene.h"
+
+namespace brume {
+
+template <int C> class PhaseMixture {
+ public:
+  /// @param densities  of the media at the point; empty where the scene has only one. Must outlive the mixture.
+  PhaseMixture(const Scene& scene, std::span<const float> densities) : scene_(scene), densities_(densities) {}
+
+  /// At a segment of a record; the densities lie in the arena.
+  PhaseMixture(const Scene& scene, const MarchRecord<C>& record, int segment, Arena& arena);
+
+  /// sum_m sigma_s,m p_m / sum_m sigma_s,m per channel, 1/sr.
+  Spectrum<C> value(float cos_theta) const;
+
+  /// With which sample() draws a direction, per sr; value() itself for a single medium.
+  float pdf_w(float cos_theta) const;
+
+  /// Draws a medium by what it scatters, summed over the channels, then a direction by its phase function.
+  /// @param direction  of travel before, unit
+  Vec3 sample(Vec3 direction, float u_lobe, Vec2 u) const;
+
+ private:
+  /// What medium m scatters here in channel c, and in all of them.
+  float share(std::size_t m, int c) const { return scene_.media[m].sigma_s[c] * densities_[m]; }
+  float share(std::size_t m) const;
+  bool single() const { return densities_.empty(); }
+
+  const Scene& scene_;
+  std::span<const float> densities_;
+};
+
+}  // namespace brume

@@ -1,0 +1,41 @@
+#include "renderer/lights/area_light.h"
+
+namespace brume {
+
+IncidentLight AreaLight::incident(const LightPoint& point, Vec3 x) const {
+  const Vec3 to_light = point.position - x;
+  const float distance = length(to_light);
+  const Vec3 wi = to_light / distance;
+  const float cosine = -dot(wi, point.normal);
+  const float facing = two_sided_ ? std::abs(cosine) : std::max(0.0f, cosine);
+  const float seen = facing * area_ / (distance * distance);  // solid angle per unit of the uniform pdf
+  return {wi, distance, radiance_ * seen, seen > 0 ? 1 / seen : 0};
+}
+
+Interval AreaLight::lit_part(const LightPoint& point, const Ray& ray) const {
+  if (two_sided_) return ray.span;
+  // Signed height of the ray over the plane: h(t) = h0 + slope t, lit where h > 0.
+  const float height = dot(ray.origin - point.position, point.normal), slope = dot(ray.direction, point.normal);
+  if (slope == 0) return height > 0 ? ray.span : Interval{};
+  const float crossing = -height / slope;
+  return intersect(ray.span, slope > 0 ? Interval{crossing, ray.span.end} : Interval{ray.span.begin, crossing});
+}
+
+std::optional<LightHit> AreaLight::hit(const Ray& ray) const {
+  const auto met = meet(ray);
+  if (!met) return std::nullopt;
+  const float cosine = -dot(ray.direction, met->normal);
+  const float facing = two_sided_ ? std::abs(cosine) : cosine;
+  if (!(facing > 0)) return std::nullopt;
+  return LightHit{met->t,
+                  radiance_,
+                  met->t * met->t / (facing * area_),
+                  {LightPoint::Kind::Finite, ray.at(met->t), {}, met->normal}};
+}
+
+float AreaLight::solid_angle(Vec3 x) const {
+  const float half_space = 2 * kPi, d2 = length_squared(middle_ - x);
+  return half_space * d2 > area_ ? area_ / d2 : half_space;
+}
+
+}  // namespace brume

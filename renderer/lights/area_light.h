@@ -1,0 +1,38 @@
+// Lights with a surface.
+#pragma once
+
+#include "renderer/lights/light.h"
+
+namespace brume {
+
+/// A surface of constant radiance (W/(sr m^2)), Lambertian, emitting on the side of its normals or on both. Points are
+/// drawn uniformly over the area; kinds differ only in where their points lie.
+class AreaLight : public Light {
+ public:
+  IncidentLight incident(const LightPoint& point, Vec3 x) const final;
+  /// The ray above the tangent plane of the point.
+  Interval lit_part(const LightPoint& point, const Ray& ray) const final;
+  std::optional<LightHit> hit(const Ray& ray) const final;
+  float solid_angle(Vec3 x) const final;
+
+ protected:
+  /// @param middle  of the surface
+  AreaLight(Color radiance, bool two_sided, float area, Vec3 middle)
+      : radiance_(radiance), two_sided_(two_sided), area_(area), middle_(middle) {}
+
+  /// Where a ray meets the surface, whichever side it comes from.
+  struct Meeting {
+    float t;
+    Vec3 normal;  ///< unit
+  };
+  /// The nearest one inside ray.span (for closed surfaces: from outside).
+  virtual std::optional<Meeting> meet(const Ray& ray) const = 0;
+
+ private:
+  Color radiance_;
+  bool two_sided_;
+  float area_;
+  Vec3 middle_;
+};
+
+}  // namespace brume
