@@ -84,7 +84,7 @@ void add_pair(const Scene& scene, const Integrator& integrator, const Ray& ray, 
 RayEstimate estimate_ray(const Scene& scene, const Ray& ray, std::uint64_t samples, WorkerPool& pool) {
   BRUME_CHECK(scene.render.sampler == SamplerKind::Independent, ==, true);
   const auto start = std::chrono::steady_clock::now();
-  const auto integrator = make_integrator(scene.render.integrator);
+  const auto integrator = make_integrator(scene);
 
   // The parts depend on the number of samples alone, and are merged in order.
   constexpr std::uint64_t kMostParts = 4096, kLeastPairs = 128;

@@ -99,7 +99,7 @@ void Engine::direct(const std::stop_token& stop) {
         pictures_.resize(wishes_.size());
         for (std::size_t i = 0; i < wishes_.size(); ++i) {
           const Job& wish = wishes_[i];
-          jobs.push_back({wish, i, make_integrator(wish.scene->render.integrator), std::move(films[i])});
+          jobs.push_back({wish, i, make_integrator(*wish.scene), std::move(films[i])});
         }
         continue;
       }
@@ -186,7 +186,7 @@ void Engine::publish(Progress& job, Image image, int divisor) {
 RenderStatistics render_batch(const Scene& scene, int samples, Film& film, WorkerPool& pool,
                               const std::function<bool(const BatchProgress&)>& after_pass) {
   const auto start = Clock::now();
-  const auto integrator = make_integrator(scene.render.integrator);
+  const auto integrator = make_integrator(scene);
   RenderStatistics statistics;
   statistics.threads = pool.threads();
   static_cast<void>(pool.take_totals());

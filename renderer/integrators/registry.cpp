@@ -15,15 +15,26 @@ RayStatistics& RayStatistics::operator+=(const RayStatistics& other) {
 }
 
 const std::vector<IntegratorType>& integrator_types() {
-  static const std::vector<IntegratorType> types{decoupled_integrator_type()};
+  static const std::vector<IntegratorType> types{
+      decoupled_integrator_type(),        ray_march_integrator_type(),      ray_march_cached_integrator_type(),
+      stochastic_march_integrator_type(), delta_tracking_integrator_type(), delta_tracking_local_integrator_type(),
+      null_scattering_integrator_type()};
   return types;
 }
 
-std::unique_ptr<const Integrator> make_integrator(const std::string& key) {
+std::unique_ptr<const Integrator> make_integrator(const Scene& scene) {
   for (const IntegratorType& t : integrator_types())
-    if (t.table.key == key) return t.make();
-  BRUME_CHECK(key, ==, "an integrator");
+    if (t.table.key == scene.render.integrator) return t.make(scene);
+  BRUME_CHECK(scene.render.integrator, ==, "an integrator");
   return nullptr;
+}
+
+ParamTable integrator_table(std::string key, std::string label, std::string doc,
+                            std::vector<std::vector<Param>> groups) {
+  ParamTable table{std::move(key), std::move(label), std::move(doc), {}, {}};
+  for (auto& group : groups)
+    for (Param& p : group) table.params.push_back(std::move(p));
+  return table;
 }
 
 const Family& scene_family() {

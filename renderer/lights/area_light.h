@@ -13,7 +13,7 @@ class AreaLight : public Light {
   /// The ray above the tangent plane of the point.
   Interval lit_part(const LightPoint& point, const Ray& ray) const final;
   std::optional<LightHit> hit(const Ray& ray) const final;
-  float solid_angle(Vec3 x) const final;
+  float solid_angle(Vec3 x) const override;
 
  protected:
   /// @param middle  of the surface

@@ -1,11 +1,10 @@
 #include "renderer/lights/environment_map.h"
 
-#include <stb_image.h>
-
 #include <algorithm>
 #include <filesystem>
 
 #include "renderer/film/image_io.h"
+#include "renderer/film/radiance_hdr.h"
 
 namespace brume {
 namespace {
@@ -30,22 +29,6 @@ const Color& pixel(const Image& picture, int x, int y) {
   return picture.at(x, std::clamp(y, 0, picture.height - 1));
 }
 
-Result<Image> read_radiance_hdr(const std::string& path) {
-  if (auto done = detail::check_readable(path); !done) return done.error();
-  int width = 0, height = 0, channels = 0;
-  const bool sized = stbi_is_hdr(path.c_str()) && stbi_info(path.c_str(), &width, &height, &channels);
-  if (sized && static_cast<std::int64_t>(width) * height > kMaxImagePixels)
-    return detail::file_error(path, "found " + std::to_string(width) + "x" + std::to_string(height) +
-                                        " pixels, expected at most " + std::to_string(kMaxImagePixels) + " in all");
-  float* values = sized ? stbi_loadf(path.c_str(), &width, &height, &channels, 3) : nullptr;
-  if (!values) return detail::file_error(path, "found no Radiance picture, expected an .hdr file");
-  Image picture(width, height);
-  for (std::size_t i = 0; i < picture.pixels.size(); ++i)
-    picture.pixels[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
-  stbi_image_free(values);
-  return picture;
-}
-
 }  // namespace
 
 EnvironmentMap::EnvironmentMap(Image picture) : picture_(std::move(picture)) {
@@ -54,8 +37,8 @@ EnvironmentMap::EnvironmentMap(Image picture) : picture_(std::move(picture)) {
       if (!(c[k] >= 0 && std::isfinite(c[k]))) c[k] = 0, ++mended_;
 
   // Mean of the bilinear function over each pixel: 6/8 of a pixel's own value and 1/8 of each neighbour's, both ways.
-  constexpr float kShare[3] = {0.125f, 0.75f, 0.125f};
-  std::vector<float> weights;
+  constexpr double kShare[3] = {0.125, 0.75, 0.125};
+  std::vector<double> weights;
   weights.reserve(picture_.pixels.size());
   double sum = 0, squares = 0;
   for (int y = 0; y < picture_.height; ++y) {
@@ -63,16 +46,21 @@ EnvironmentMap::EnvironmentMap(Image picture) : picture_(std::move(picture)) {
     const double pi = 3.14159265358979323846;
     const double sr = (std::cos(pi * low) - std::cos(pi * high)) * 2 * pi / picture_.width;
     for (int x = 0; x < picture_.width; ++x) {
-      float mean = 0;
+      double mean = 0;
       for (int j = -1; j <= 1; ++j)
-        for (int i = -1; i <= 1; ++i) mean += kShare[i + 1] * kShare[j + 1] * luminance(pixel(picture_, x + i, y + j));
-      weights.push_back(mean * static_cast<float>(sr));
-      sum += static_cast<double>(mean) * sr;
-      squares += static_cast<double>(mean) * static_cast<double>(mean) * sr;
+        for (int i = -1; i <= 1; ++i)
+          mean += kShare[i + 1] * kShare[j + 1] * static_cast<double>(luminance(pixel(picture_, x + i, y + j)));
+      weights.push_back(mean * sr);
+      sum += mean * sr;
+      squares += mean * mean * sr;
     }
   }
   solid_angle_ = static_cast<float>(squares > 0 ? sum * sum / squares : 0);
-  distribution_ = PiecewiseConstant2D(picture_.width, picture_.height, weights);
+  // Only their ratios count; the largest is made 1, so that none is too large for a float.
+  const double largest = *std::max_element(weights.begin(), weights.end());
+  std::vector<float> relative;
+  for (const double w : weights) relative.push_back(static_cast<float>(largest > 0 ? w / largest : 0));
+  distribution_ = PiecewiseConstant2D(picture_.width, picture_.height, relative);
 }
 
 Result<std::shared_ptr<const EnvironmentMap>> EnvironmentMap::read(const std::string& path) {
@@ -84,7 +72,7 @@ Result<std::shared_ptr<const EnvironmentMap>> EnvironmentMap::read(const std::st
     if (!file) return file.error();
     picture = std::move(file->image);
   } else if (kind == ".hdr") {
-    auto file = read_radiance_hdr(path);
+    auto file = read_hdr(path);
     if (!file) return file.error();
     picture = std::move(*file);
   } else {

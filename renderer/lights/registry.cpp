@@ -38,7 +38,7 @@ const ParamTable& spot_table() {
       {param::point("position", "Position", 0, 0, 3).says("Where the light is."),
        param::vector("direction", "Direction", 0, 0, -1).says("The axis of the cone; any length."),
        param::number("cone_deg", "Cone", 30)
-           .between(0.01, 90)
+           .between(0.05, 90)
            .in("degrees")
            .says("Angle between the axis and the edge of the cone."),
        param::number("blend", "Blend", 0.3).between(0, 1).says("Share of the cone over which the light falls to 0."),

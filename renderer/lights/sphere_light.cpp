@@ -9,6 +9,11 @@ LightPoint SphereLight::sample_point(Vec2 u) const {
   return {LightPoint::Kind::Finite, center_ + n * radius_, {}, n};
 }
 
+float SphereLight::solid_angle(Vec3 x) const {
+  const float sin2 = radius_ * radius_ / length_squared(center_ - x);
+  return sin2 < 1 ? 2 * kPi * sin2 / (1 + std::sqrt(1 - sin2)) : 2 * kPi;
+}
+
 std::optional<AreaLight::Meeting> SphereLight::meet(const Ray& ray) const {
   // Relative to the point of the ray nearest to the centre, in double: a small sphere far away keeps its roundness.
   const Vec3d to_center = Vec3d(center_) - Vec3d(ray.origin), d(ray.direction);

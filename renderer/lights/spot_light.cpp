@@ -28,9 +28,10 @@ Interval SpotLight::lit_part(const LightPoint&, const Ray& ray) const {
   // Inside the cone: with v = x - position, dot(v, axis) >= |v| cos(outer). Squared, this is A t^2 + 2 B t + C >= 0
   // and also holds in the mirrored cone, which dot(v, axis) >= 0 takes away. The cone is convex: one interval.
   const Vec3d v = Vec3d(ray.origin) - Vec3d(position_), d(ray.direction), axis(axis_);
-  const double k = static_cast<double>(cos_outer_) * static_cast<double>(cos_outer_);
+  // A float direction has not exactly unit length, and seen from far away that would matter.
+  const double k = static_cast<double>(cos_outer_) * static_cast<double>(cos_outer_) * length_squared(axis);
   const double va = dot(v, axis), da = dot(d, axis);
-  const double a = da * da - k, b = va * da - k * dot(v, d), c = va * va - k * length_squared(v);
+  const double a = da * da - k * length_squared(d), b = va * da - k * dot(v, d), c = va * va - k * length_squared(v);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double begin = -kInfinity, end = kInfinity;
   const double discriminant = b * b - a * c;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "renderer/march/presence.h"
+
 namespace brume {
 
 int segment_count(float length, float& step, MarchCounts& counts) {
@@ -25,34 +27,6 @@ struct Stretch {
   float step;
   bool uniform;  // all its media are homogeneous (or there are none): nothing to look up
 };
-
-bool contains(std::span<const Interval> intervals, float t) {
-  return std::any_of(intervals.begin(), intervals.end(), [t](Interval i) { return t > i.begin && t < i.end; });
-}
-
-/// The presence of every medium along one ray.
-struct Presence {
-  std::span<std::span<const Interval>> of_medium;
-  std::span<float> edges;  // where any medium begins or ends, ascending
-};
-
-Presence find_presence(std::span<const Medium> media, const Ray& ray, Arena& arena) {
-  Presence presence;
-  presence.of_medium = arena.alloc_span<std::span<const Interval>>(media.size());
-  std::size_t edge_count = 0;
-  for (std::size_t m = 0; m < media.size(); ++m) {
-    presence.of_medium[m] = media[m].intervals(ray, arena);
-    edge_count += 2 * presence.of_medium[m].size();
-  }
-  presence.edges = arena.alloc_span<float>(edge_count);
-  std::size_t e = 0;
-  for (const auto& intervals : presence.of_medium)
-    for (const Interval i : intervals) presence.edges[e++] = i.begin, presence.edges[e++] = i.end;
-  std::sort(presence.edges.begin(), presence.edges.end());
-  const auto end = std::unique(presence.edges.begin(), presence.edges.end());
-  presence.edges = presence.edges.first(static_cast<std::size_t>(end - presence.edges.begin()));
-  return presence;
-}
 
 /// Positions at which a stretch is looked up, one per segment.
 PointBatch lookup_points(const Stretch& stretch, const float* t, const Ray& ray, const MarchSettings& settings,
@@ -79,7 +53,7 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
                       const MarchSettings& settings, Arena& arena, MarchCounts& counts) {
   MarchRecord<C> rec;
   const Presence presence = find_presence(media, ray, arena);
-  if (presence.edges.size() < 2) return rec;
+  if (presence.empty()) return rec;
 
   const auto stretches = arena.alloc_span<Stretch>(presence.edges.size() - 1);
   for (std::size_t s = 0; s < stretches.size(); ++s) {
@@ -87,7 +61,8 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
     stretch = {{presence.edges[s], presence.edges[s + 1]}, rec.n, 1, settings.step, true};
     const float middle = 0.5f * (stretch.span.begin + stretch.span.end);
     for (std::size_t m = 0; m < media.size(); ++m)
-      if (!media[m].traits.constant && contains(presence.of_medium[m], middle)) stretch.uniform = false;
+      if (!media[m].traits.constant && presence.contains(m, middle)) stretch.uniform = false;
+    if (settings.split_homogeneous) stretch.uniform = false;
     if (!stretch.uniform) stretch.count = segment_count(stretch.span.length(), stretch.step, counts);
     rec.n += stretch.count;
   }
@@ -122,7 +97,7 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
     const std::span<float> density = arena.alloc_span<float>(count);
     for (std::size_t m = 0; m < media.size(); ++m) {
       const Medium& medium = media[m];
-      if (!contains(presence.of_medium[m], middle)) continue;
+      if (!presence.contains(m, middle)) continue;
       if (medium.traits.constant) {
         std::fill(density.begin(), density.end(), 1.0f);
       } else {

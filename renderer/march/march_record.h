@@ -18,9 +18,10 @@ struct MarchCounts {
 };
 
 struct MarchSettings {
-  float step;    ///< world units, > 0
-  float offset;  ///< in [0,1): where inside every segment of this ray the medium is looked up
-  float time;    ///< seconds
+  float step;                      ///< world units, > 0
+  float offset;                    ///< in [0,1): where inside every segment of this ray the medium is looked up
+  float time;                      ///< seconds
+  bool split_homogeneous = false;  ///< step through homogeneous stretches too, where lighting is sampled at every step
 };
 
 /// A stretch of medium with more steps than this is marched with a longer step, and counted: the volume never ends in

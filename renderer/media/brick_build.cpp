@@ -363,8 +363,12 @@ class BrickBuilder {
     grid_.brick_count_ = static_cast<int>(stored_.size() + 1);
     grid_.values_.reset(static_cast<float*>(::operator new(value_bytes(), std::align_val_t(64))));
     std::fill_n(grid_.values_.get(), BrickGrid::kBrickFloats, 0.0f);
+    grid_.brick_max_.resize(stored_.size() + 1);
     return chunked(static_cast<std::int64_t>(stored_.size()), options_, 0.4f, 1.0f, [&](std::int64_t i) {
-      fill(stored_[static_cast<std::size_t>(i)], grid_.values_.get() + (i + 1) * BrickGrid::kBrickFloats);
+      float* brick = grid_.values_.get() + (i + 1) * BrickGrid::kBrickFloats;
+      fill(stored_[static_cast<std::size_t>(i)], brick);
+      constexpr int kVoxelsOfBrick = BrickGrid::kCorners * BrickGrid::kCorners * BrickGrid::kCorners;
+      grid_.brick_max_[static_cast<std::size_t>(i) + 1] = *std::max_element(brick, brick + kVoxelsOfBrick);
     });
   }
 

@@ -82,6 +82,8 @@ class BrickGrid {
 
   float min_value() const { return min_value_; }  ///< of the active voxels, after replacement
   float max_value() const { return max_value_; }  ///< of all voxels: no look-up exceeds it but by rounding
+  /// Upper bound of the interpolant inside a box of index space; whole bricks are looked at.
+  float max_value(const Bounds3& box) const;
   std::uint64_t active_voxels() const { return active_voxels_; }
   std::uint64_t non_finite_voxels() const { return non_finite_voxels_; }  ///< were NaN or infinite, are 0
   std::uint64_t negative_voxels() const { return negative_voxels_; }      ///< were below 0, are 0
@@ -99,6 +101,7 @@ class BrickGrid {
   VoxelIndex table_origin_, table_extent_, active_min_, active_max_;
   std::vector<std::int32_t> table_;
   std::unique_ptr<float[], Free> values_;
+  std::vector<float> brick_max_;  // [brick_count]
   int brick_count_ = 0;
   float min_value_ = 0, max_value_ = 0;
   std::uint64_t active_voxels_ = 0, non_finite_voxels_ = 0, negative_voxels_ = 0;

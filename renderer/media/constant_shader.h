@@ -7,9 +7,8 @@ namespace brume {
 /// Density 1 everywhere: a homogeneous medium, for which one segment per stretch is exact.
 class ConstantShader final : public Shader {
  public:
-  ShaderTraits traits() const override {
-    return {.constant = true, .own_emission = false, .finest_scale = {}, .max_density = 1.0f};
-  }
+  ShaderTraits traits() const override { return {.constant = true, .own_emission = false, .finest_scale = {}}; }
+  float max_density(const Bounds3&) const override { return 1; }
   void density(const PointBatch& points, float* density) const override;
 };
 

@@ -25,11 +25,16 @@ ShaderTraits GridShader::traits() const {
   ShaderTraits traits;
   traits.own_emission = emission_.grid != nullptr;
   traits.finest_scale = voxel_size_;
-  traits.max_density = density_.grid ? density_.grid->max_value() : 0.0f;
   return traits;
 }
 
 void GridShader::density(const PointBatch& points, float* density) const { lookup(density_, points, density); }
+
+float GridShader::max_density(const Bounds3& box) const {
+  if (!density_.grid) return 0;
+  const Bounds3 in_grid = transform_bounds(density_.index_from_scene.cast<double>(), box);
+  return density_.grid->max_value(in_grid) * 1.00001f;  // interpolation rounds
+}
 
 void GridShader::emission(const PointBatch& points, float* emission) const { lookup(emission_, points, emission); }
 

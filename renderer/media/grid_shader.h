@@ -20,6 +20,7 @@ class GridShader final : public Shader {
 
   ShaderTraits traits() const override;
   void density(const PointBatch& points, float* density) const override;
+  float max_density(const Bounds3& box) const override;
   void emission(const PointBatch& points, float* emission) const override;
 
  private:

@@ -6,38 +6,82 @@ namespace brume {
 
 void ProfileShader::density(const PointBatch& points, float* density) const {
   for (int i = 0; i < points.n; ++i)
-    density[i] = std::max(0.0f, profile_(local_from_scene_.point({points.x[i], points.y[i], points.z[i]})));
+    density[i] = std::max(0.0f, profile_.density(local_from_scene_.point({points.x[i], points.y[i], points.z[i]})));
 }
 
+float ProfileShader::max_density(const Bounds3& box) const {
+  const double bound = profile_.bound(transform_bounds(local_from_scene_.cast<double>(), box));
+  return static_cast<float>(std::max(0.0, bound)) * 1.00001f;  // both are rounded
+}
+
+namespace {
+
+/// Where in the box the point nearest to p is, and the distance of the farthest.
+double nearest_distance(const Bounds3& box, Vec3d p) { return length(p - min(max(p, box.low), box.high)); }
+double farthest_distance(const Bounds3& box, Vec3d p) {
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) sum += std::pow(std::max(std::abs(p[k] - box.low[k]), std::abs(p[k] - box.high[k])), 2);
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
 ProfileShader::Profile exponential_profile(int axis, float y0, float scale_height) {
-  return [=](Vec3 p) { return std::exp(-(p[axis] - y0) / scale_height); };
+  return {[=](Vec3 p) { return std::exp(-(p[axis] - y0) / scale_height); },
+          [=](const Bounds3& box) {
+            return std::exp(-(box.low[axis] - static_cast<double>(y0)) / static_cast<double>(scale_height));
+          }};
 }
 
 ProfileShader::Profile gaussian_profile(Vec3 center, float sigma) {
-  return [=](Vec3 p) { return std::exp(-length_squared(p - center) / (2 * sigma * sigma)); };
+  return {[=](Vec3 p) { return std::exp(-length_squared(p - center) / (2 * sigma * sigma)); },
+          [=](const Bounds3& box) {
+            return std::exp(-0.5 * std::pow(nearest_distance(box, Vec3d(center)) / static_cast<double>(sigma), 2));
+          }};
 }
 
 ProfileShader::Profile linear_profile(Vec3 gradient, float offset) {
-  return [=](Vec3 p) { return offset + dot(gradient, p); };
+  return {[=](Vec3 p) { return offset + dot(gradient, p); },
+          [=](const Bounds3& box) {
+            const Vec3d g(gradient);
+            double sum = static_cast<double>(offset);
+            for (int k = 0; k < 3; ++k) sum += std::max(g[k] * box.low[k], g[k] * box.high[k]);
+            return sum;
+          }};
 }
 
 ProfileShader::Profile slabs_profile(int axis, std::vector<float> edges, std::vector<float> values) {
-  return [=](Vec3 p) {
+  auto density = [=](Vec3 p) {
     const auto above = std::upper_bound(edges.begin(), edges.end(), p[axis]);
     if (above == edges.begin() || above == edges.end()) return 0.0f;
     return values[static_cast<std::size_t>(above - edges.begin()) - 1];
   };
+  auto bound = [=](const Bounds3& box) {
+    float largest = 0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (static_cast<double>(edges[i]) <= box.high[axis] && static_cast<double>(edges[i + 1]) >= box.low[axis])
+        largest = std::max(largest, values[i]);
+    return static_cast<double>(largest);
+  };
+  return {density, bound};
 }
 
 ProfileShader::Profile shell_profile(Vec3 center, float inner, float outer) {
-  return [=](Vec3 p) {
-    const float r2 = length_squared(p - center);
-    return r2 >= inner * inner && r2 <= outer * outer ? 1.0f : 0.0f;
-  };
+  return {[=](Vec3 p) {
+            const float r2 = length_squared(p - center);
+            return r2 >= inner * inner && r2 <= outer * outer ? 1.0f : 0.0f;
+          },
+          [=](const Bounds3& box) {
+            const double rounding = 1e-5 * static_cast<double>(outer);
+            const bool misses = nearest_distance(box, Vec3d(center)) > static_cast<double>(outer) + rounding ||
+                                farthest_distance(box, Vec3d(center)) < static_cast<double>(inner) - rounding;
+            return misses ? 0.0 : 1.0;
+          }};
 }
 
 ProfileShader::Profile sinusoid_profile(float amplitude, Vec3 wavevector, float phase) {
-  return [=](Vec3 p) { return 1 + amplitude * std::sin(2 * kPi * dot(wavevector, p) + phase); };
+  return {[=](Vec3 p) { return 1 + amplitude * std::sin(2 * kPi * dot(wavevector, p) + phase); },
+          [=](const Bounds3&) { return 1 + std::abs(static_cast<double>(amplitude)); }};
 }
 
 namespace {

@@ -12,16 +12,20 @@ namespace brume {
 /// called point by point, so it runs at scalar speed.
 class ProfileShader final : public Shader {
  public:
-  using Profile = std::function<float(Vec3)>;
+  struct Profile {
+    std::function<float(Vec3)> density;
+    std::function<double(const Bounds3&)> bound;  ///< upper bound inside a box
+  };
 
   /// @param profile  dimensionless density >= 0.  @param finest_scale  world units, sets the automatic step
   ProfileShader(const Affine& local_from_scene, float finest_scale, Profile profile)
       : local_from_scene_(local_from_scene), finest_scale_(finest_scale), profile_(std::move(profile)) {}
 
   ShaderTraits traits() const override {
-    return {.constant = false, .own_emission = false, .finest_scale = finest_scale_, .max_density = {}};
+    return {.constant = false, .own_emission = false, .finest_scale = finest_scale_};
   }
   void density(const PointBatch& points, float* density) const override;
+  float max_density(const Bounds3& box) const override;
 
  private:
   Affine local_from_scene_;

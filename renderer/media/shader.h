@@ -24,7 +24,6 @@ struct ShaderTraits {
   bool own_emission = false;  ///< emission() gives a field of its own instead of following the density
   std::optional<float> finest_scale =
       {};  ///< world units: size of the smallest feature (a voxel); sets the automatic step
-  std::optional<float> max_density = {};  ///< an upper bound of the density, where there is one
 };
 
 /// A shader is immutable and may be asked from any thread, in any order, for any n.
@@ -36,6 +35,10 @@ class Shader {
 
   /// Writes density[0..n): dimensionless, finite and >= 0. May write up to the next multiple of 16 values.
   virtual void density(const PointBatch& points, float* density) const = 0;
+
+  /// An upper bound of the density at all points of `box`, scene space. Tracking needs it: where it is too low, a
+  /// picture is wrong; where it is too high, only slow.
+  virtual float max_density(const Bounds3& box) const = 0;
 
   /// Writes emission[0..n), dimensionless, finite and >= 0; called only when traits().own_emission.
   virtual void emission(const PointBatch& points, float* emission) const;

@@ -7,7 +7,7 @@ namespace brume {
 // Everything is computed for |g|; a negative g is the mirror image, which alpha c^2 does not notice. m = 1 - c is small
 // where the peak is, so it is m that is kept, and 1 + g^2 - 2 g c = (1 - g)^2 + 2 g m.
 
-Draine::Draine(float g, float alpha) : g_(std::clamp(static_cast<double>(g), -0.999, 0.999)), alpha_(alpha) {
+Draine::Draine(double g, double alpha) : g_(std::clamp(g, -0.9999, 0.9999)), alpha_(alpha) {
   scale_ = (1 - g_ * g_) / (2 * (1 + alpha_ * (1 + 2 * g_ * g_) / 3));
 }
 
@@ -44,8 +44,9 @@ PhaseSample Draine::sample(Vec3 direction, Vec2 u) const {
     m = next;
     if (change <= 1e-7 * m) break;  // the result is rounded to float
   }
-  const float one_minus_cos = static_cast<float>(g_ < 0 ? 2 - m : m);
-  return {direction_about(direction, one_minus_cos, u.y), value(1 - one_minus_cos)};
+  const float one_minus_cos = static_cast<float>(m);
+  return {direction_about(g_ < 0 ? -direction : direction, one_minus_cos, u.y),
+          value(g_ < 0 ? one_minus_cos - 1 : 1 - one_minus_cos)};
 }
 
 float Draine::mean_cosine() const {

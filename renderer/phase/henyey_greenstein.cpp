@@ -4,14 +4,16 @@
 
 namespace brume {
 
-HenyeyGreenstein::HenyeyGreenstein(float g) : g_(std::clamp(g, -0.999f, 0.999f)) {}
+HenyeyGreenstein::HenyeyGreenstein(double g) : g_(std::clamp(g, -0.9999, 0.9999)) {}
+
+// In double, because 1 - |g| is small where it matters most.
 
 float HenyeyGreenstein::value(float cos_theta) const {
-  const float c = std::clamp(cos_theta, -1.0f, 1.0f);
+  const double c = static_cast<double>(std::clamp(cos_theta, -1.0f, 1.0f));
   // 1 + g^2 - 2 g c without cancellation where it is smallest: (1 - |g|)^2 + 2 |g| (1 - c sign g).
-  const float a = std::abs(g_);
-  const float denominator = (1 - a) * (1 - a) + 2 * a * (1 - (g_ < 0 ? -c : c));
-  return kInv4Pi * (1 - g_ * g_) / (denominator * std::sqrt(denominator));
+  const double a = std::abs(g_);
+  const double denominator = (1 - a) * (1 - a) + 2 * a * (1 - (g_ < 0 ? -c : c));
+  return kInv4Pi * static_cast<float>((1 - a) * (1 + a) / (denominator * std::sqrt(denominator)));
 }
 
 PhaseSample HenyeyGreenstein::sample(Vec3 direction, Vec2 u) const {
@@ -19,12 +21,13 @@ PhaseSample HenyeyGreenstein::sample(Vec3 direction, Vec2 u) const {
   // cancels near |g| = 1. On paper (1 + g) - d = g (1 - s), so one g cancels and every factor is positive:
   //   1 - cos = (1 - g)^2 (1 - s) (2 + g + g s) / (2 d^2),
   // which at g = 0 is 1 - s. Negative g is the mirror image.
-  const float g = std::abs(g_);
-  const float d = (1 - g) + 2 * g * (1 - u.x);
-  const float one_minus_cos = std::min(2.0f, (1 - g) * (1 - g) * u.x * (2 + 2 * g * (1 - u.x)) / (d * d));
+  const double g = std::abs(g_), x = static_cast<double>(u.x);
+  const double d = (1 - g) + 2 * g * (1 - x);
+  const float one_minus_cos =
+      static_cast<float>(std::min(2.0, (1 - g) * (1 - g) * x * (2 + 2 * g * (1 - x)) / (d * d)));
   // For g < 0 the angle is taken from the opposite direction.
   const Vec3 axis = g_ < 0 ? -direction : direction;
-  const float cos_theta = std::copysign(1.0f, g_) * (1 - one_minus_cos);
+  const float cos_theta = g_ < 0 ? one_minus_cos - 1 : 1 - one_minus_cos;
   return {direction_about(axis, one_minus_cos, u.y), value(cos_theta)};
 }
 

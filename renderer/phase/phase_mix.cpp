@@ -17,8 +17,7 @@ Droplets water_droplets(float diameter) {
     alpha = 7.30354 * l + 6.31675;
     share = 0.026914 * (l - std::cos(5.68947 * (ll - 0.0292149))) + 0.376475;
   }
-  return {HenyeyGreenstein(static_cast<float>(g_hg)), Draine(static_cast<float>(g_draine), static_cast<float>(alpha)),
-          static_cast<float>(share)};
+  return {HenyeyGreenstein(g_hg), Draine(g_draine, alpha), static_cast<float>(share)};
 }
 
 }  // namespace brume

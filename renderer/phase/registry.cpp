@@ -20,7 +20,7 @@ const ParamTable& henyey_greenstein_table() {
       "Henyey-Greenstein",
       "One lobe whose mean cosine is g.",
       {param::number("g", "Mean cosine g", 0)
-           .between(-0.999, 0.999)
+           .between(-0.9999, 0.9999)
            .says("Mean cosine of the scattering angle: above 0 light goes on forwards, below 0 it is thrown back.")},
       {}};
   return table;
@@ -31,8 +31,8 @@ const ParamTable& two_lobe_table() {
       "two_lobe",
       "Two lobes",
       "A forward and a backward Henyey-Greenstein lobe, as fits clouds and smoke.",
-      {param::number("g", "Forward g", 0.8).between(-0.999, 0.999).says("Mean cosine of the first lobe."),
-       param::number("g_back", "Backward g", -0.3).between(-0.999, 0.999).says("Mean cosine of the second lobe."),
+      {param::number("g", "Forward g", 0.8).between(-0.9999, 0.9999).says("Mean cosine of the first lobe."),
+       param::number("g_back", "Backward g", -0.3).between(-0.9999, 0.9999).says("Mean cosine of the second lobe."),
        param::number("back_share", "Backward share", 0.3)
            .between(0, 1)
            .says("Share of the light that the second lobe scatters.")},
@@ -52,7 +52,7 @@ const ParamTable& draine_table() {
       "Draine",
       "Henyey-Greenstein with a second, backward rise: dust. Holds Henyey-Greenstein and Rayleigh as special cases.",
       {param::number("g", "Asymmetry g", 0.5)
-           .between(-0.999, 0.999)
+           .between(-0.9999, 0.9999)
            .says("Asymmetry of the Henyey-Greenstein factor; the mean cosine is a little larger for a large alpha."),
        param::number("alpha", "Alpha", 1).between(0, 1000).slider(0, 40).says("Weight of the squared cosine.")},
       {}};
@@ -82,14 +82,14 @@ float number(const Node& n, const char* key) { return static_cast<float>(n.numbe
 const std::vector<PhaseType>& phase_types() {
   static const std::vector<PhaseType> types{
       {&isotropic_table(), [](const Node&) { return made<Isotropic>(); }},
-      {&henyey_greenstein_table(), [](const Node& n) { return made<HenyeyGreenstein>(number(n, "g")); }},
+      {&henyey_greenstein_table(), [](const Node& n) { return made<HenyeyGreenstein>(n.number("g")); }},
       {&two_lobe_table(),
        [](const Node& n) {
-         return made<TwoLobe>(HenyeyGreenstein(number(n, "g")), HenyeyGreenstein(number(n, "g_back")),
+         return made<TwoLobe>(HenyeyGreenstein(n.number("g")), HenyeyGreenstein(n.number("g_back")),
                               number(n, "back_share"));
        }},
       {&rayleigh_table(), [](const Node&) { return made<Rayleigh>(); }},
-      {&draine_table(), [](const Node& n) { return made<Draine>(number(n, "g"), number(n, "alpha")); }},
+      {&draine_table(), [](const Node& n) { return made<Draine>(n.number("g"), n.number("alpha")); }},
       {&droplets_table(), [](const Node& n) { return made<Droplets>(water_droplets(number(n, "diameter"))); }},
   };
   return types;

@@ -6,7 +6,7 @@ namespace brume {
 namespace {
 
 /// Writes the distribution function of n weights to cdf[0..n]; returns their sum.
-double accumulate(const float* weights, int n, float* cdf) {
+template <class T> double accumulate(const T* weights, int n, float* cdf) {
   double sum = 0;
   for (int i = 0; i < n; ++i) sum += static_cast<double>(weights[i]);
   double running = 0;
@@ -18,20 +18,23 @@ double accumulate(const float* weights, int n, float* cdf) {
   return sum;
 }
 
-/// The cell of width 1/n that holds the inverse of u, and where in it.
+/// The inverse of u.
 struct Inverse {
   int cell;
-  float position;  // in [0,1) of the whole range
+  float position;  // in [0,1) of the whole range, and in the cell
   float density;
 };
 
 Inverse invert(const float* cdf, int n, float u) {
   const float* above = std::upper_bound(cdf, cdf + n + 1, u);
   const int cell = std::clamp(static_cast<int>(above - cdf) - 1, 0, n - 1);
-  const float share = cdf[cell + 1] - cdf[cell];
-  const float inside = share > 0 ? std::clamp((u - cdf[cell]) / share, 0.0f, 0x1.fffffep-1f) : 0.5f;
-  const float position = (static_cast<float>(cell) + inside) / static_cast<float>(n);
-  return {cell, std::min(position, 0x1.fffffep-1f), share * static_cast<float>(n)};
+  const float share = cdf[cell + 1] - cdf[cell], size = static_cast<float>(n);
+  const float inside = share > 0 ? (u - cdf[cell]) / share : 0.5f;
+  float position = (static_cast<float>(cell) + inside) / size;
+  // Rounding may have carried it over the cell's edge.
+  while (static_cast<int>(position * size) > cell) position = std::nextafter(position, 0.0f);
+  while (static_cast<int>(position * size) < cell) position = std::nextafter(position, 1.0f);
+  return {cell, position, share * size};
 }
 
 }  // namespace
@@ -42,9 +45,8 @@ PiecewiseConstant2D::PiecewiseConstant2D(int width, int height, const std::vecto
   const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
   cells_.resize(h * (w + 1));
   rows_.resize(h + 1);
-  std::vector<float> sums(h);
-  for (std::size_t y = 0; y < h; ++y)
-    sums[y] = static_cast<float>(accumulate(&weights[y * w], width, &cells_[y * (w + 1)]));
+  std::vector<double> sums(h);  // of finite floats, which may add up to more than a float holds
+  for (std::size_t y = 0; y < h; ++y) sums[y] = accumulate(&weights[y * w], width, &cells_[y * (w + 1)]);
   accumulate(sums.data(), height, rows_.data());
 }
 

@@ -28,10 +28,16 @@ enum class Decision : std::uint32_t {
   BounceLobe,
   BounceDirection,  // 2D
   Roulette,
-  TechniquePhase,   // which technique a pixel starts with when they alternate between passes
-  LightByChance,    // whether a light is looked for by chance; per light sample
-  BounceTechnique,  // whether a scattered ray goes about a lamp, and about which
-  BounceLampPoint,  // 2D: the place on that lamp; per lamp
+  TechniquePhase,     // which technique a pixel starts with when they alternate between passes
+  LightByChance,      // whether a light is looked for by chance; per light sample
+  BounceTechnique,    // whether a scattered ray goes about a lamp, and about which
+  BounceLampPoint,    // 2D: the place on that lamp; per lamp
+  Channel,            // which channel of a chromatic medium leads a path
+  Flight,             // free flights of a tracked ray; per flight
+  ShadowFlight,       // of a ray towards a light; per light sample and flight
+  CameraFlight,       // of the camera ray towards what it sees directly
+  EquiangularFlight,  // up to a distance that was drawn about a light
+  RealCollision,      // whether a tentative collision is real; per flight
 };
 
 /// Random numbers of one sample of one pixel. A pure function of its arguments: no state advances, so results do not

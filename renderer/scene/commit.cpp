@@ -132,6 +132,7 @@ Result<std::shared_ptr<const Scene>> commit(const Node& description, SceneCache&
   for (const auto& phase : scene->phases)
     scene->phase_peak = std::max({scene->phase_peak, phase->value(1), phase->value(-1)});
   scene->lamps_inside = lamps_inside(*scene);
+  scene->majorants = Majorants(scene->media, scene->bounds, scene->render.majorant_cells);
   scene->needs = needs_of(*scene);
   scene->step_size = scene->render.step_size.value_or(automatic_step(*scene));
   scene->shadow_step_size = scene->render.shadow_step_size.value_or(scene->step_size);

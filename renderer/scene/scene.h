@@ -9,6 +9,7 @@
 #include "renderer/camera/pinhole_camera.h"
 #include "renderer/core/log.h"
 #include "renderer/lights/light.h"
+#include "renderer/media/majorants.h"
 #include "renderer/media/medium.h"
 #include "renderer/phase/phase_function.h"
 #include "renderer/scene/scene_cache.h"
@@ -33,6 +34,7 @@ struct Scene {
   std::vector<std::unique_ptr<const Light>> lights;          // enabled lights
   std::vector<const Light*>
       lamps_inside;      ///< lights with a place in or near a medium, none with a surface, at most kMaxLampsInside
+  Majorants majorants;   ///< of all media
   float phase_peak = 0;  ///< largest value of any phase function, 1/sr
 
   SceneNeeds needs;

@@ -28,8 +28,11 @@ std::vector<Param> sampling_params() {
           param::choice(
               "mis_heuristic", "MIS heuristic", "power",
               {{"power", "Power", "squares the densities"}, {"balance", "Balance", "takes the densities as they are"}})
-              .says("How the two techniques are weighted in MIS."),
-          param::integer("light_samples", "Light samples", 1)
+              .says("How the two techniques are weighted in MIS.")};
+}
+
+std::vector<Param> light_params() {
+  return {param::integer("light_samples", "Light samples", 1)
               .between(1, 256)
               .slider(1, 16)
               .says("Shadow rays per ray and light; in MIS half go to each technique, and with 1 the technique "
@@ -40,6 +43,21 @@ std::vector<Param> sampling_params() {
               .says("Which lights a ray is lit by.")};
 }
 
+std::vector<Param> majorant_params() {
+  return {
+      param::integer("majorant_cells", "Majorant cells", 32)
+          .between(1, 256)
+          .slider(1, 64)
+          .says("Cells along the longest side, each with its own upper bound of the extinction; 1 is one for all.")};
+}
+
+std::vector<Param> shadow_map_params() {
+  return {param::integer("shadow_map_resolution", "Shadow map", 64)
+              .between(2, 256)
+              .slider(16, 256)
+              .says("Rays along each side of a light's map and values along each ray; memory grows with its cube.")};
+}
+
 std::vector<Param> path_params() {
   return {
       param::integer("bounces", "Bounces", 0)
@@ -48,7 +66,11 @@ std::vector<Param> path_params() {
           .says("Scattered rays traced per camera ray; 0 is single scattering, B gives orders 1 to B + 1 of the light "
                 "of lamps."),
       param::flag("russian_roulette", "Russian roulette", true)
-          .says("Ends faint paths early without changing the mean, from the third bounce on."),
+          .says("Ends faint paths early without changing the mean, from the third bounce on.")};
+}
+
+std::vector<Param> random_params() {
+  return {
       param::choice("sampler", "Sampler", "sobol",
                     {{"sobol", "Sobol'", "Owen-scrambled low-discrepancy points: less noise after the same passes"},
                      {"independent", "Independent", "independent random numbers: what statistics assume"}})
@@ -90,6 +112,9 @@ RenderSettings read_render_settings(const Node& node) {
   s.light_selection = value_or(node, "light_selection", LightSelection::All, [](const Node& n) {
     return n.text("light_selection") == "all" ? LightSelection::All : LightSelection::One;
   });
+  s.shadow_map_resolution =
+      value_or(node, "shadow_map_resolution", 64, [](const Node& n) { return n.integer("shadow_map_resolution"); });
+  s.majorant_cells = value_or(node, "majorant_cells", 1, [](const Node& n) { return n.integer("majorant_cells"); });
   s.russian_roulette =
       value_or(node, "russian_roulette", false, [](const Node& n) { return n.flag("russian_roulette"); });
   s.sampler = node.text("sampler") == "sobol" ? SamplerKind::Sobol : SamplerKind::Independent;

@@ -29,6 +29,8 @@ struct RenderSettings {
   int light_samples;
   LightSelection light_selection;
   bool russian_roulette;
+  int shadow_map_resolution;
+  int majorant_cells;  ///< along the longest side of the scene; 1: one majorant for all of it
   SamplerKind sampler;
   std::uint64_t seed;
   float time;  ///< seconds
@@ -39,9 +41,13 @@ struct FilmSettings {
 };
 
 /// The parameters that integrators of the decoupled kind share; an integrator's table is made of what it uses.
-std::vector<Param> march_params();     ///< step_size, shadow_step_size
-std::vector<Param> sampling_params();  ///< distance_sampling, mis_heuristic, light_samples, light_selection
-std::vector<Param> path_params();      ///< bounces, russian_roulette, sampler, seed
+std::vector<Param> march_params();       ///< step_size, shadow_step_size
+std::vector<Param> sampling_params();    ///< distance_sampling, mis_heuristic
+std::vector<Param> light_params();       ///< light_samples, light_selection
+std::vector<Param> majorant_params();    ///< majorant_cells
+std::vector<Param> shadow_map_params();  ///< shadow_map_resolution
+std::vector<Param> path_params();        ///< bounces, russian_roulette
+std::vector<Param> random_params();      ///< sampler, seed, time
 
 /// @param node  of an integrator's table; parameters that it does not have get the value that means "none"
 RenderSettings read_render_settings(const Node& node);

@@ -108,7 +108,8 @@ Outcome judged(const Job& job, const ReferenceEstimate& e, double z) {
   out.relative_deviation = e.relative_deviation();
   for (const int channel : channels_of(job)) {
     const auto k = static_cast<std::size_t>(channel);
-    out.results.push_back(judge(*job.scene, *job.quantity, job.mode, channel, e, z, job.floating[k], job.bias[k]));
+    out.results.push_back(judge(*job.scene, *job.quantity, job.scene->light.type.empty() ? "-" : name_of(job.mode),
+                                channel, e, z, job.floating[k], job.bias[k]));
     const double size = std::max(std::abs(job.quantity->expected[k]), job.floor[k]);
     if (size > 0) out.noise = std::max(out.noise, e.standard_error[k] / size);
   }
@@ -118,7 +119,7 @@ Outcome judged(const Job& job, const ReferenceEstimate& e, double z) {
 /// As many samples as the pilot says are needed for the target, plus a fifth: the pilot's variance is an estimate too.
 /// The samples of the pilot are not used again, or large values would decide how often they are averaged away.
 Outcome measure(const Job& job, double z, std::uint64_t salt, std::uint64_t more) {
-  ReferenceSettings settings{job.mode, job.step, SamplerKind::Independent, seed_of(job, salt)};
+  ReferenceSettings settings{"decoupled", job.mode, job.step, SamplerKind::Independent, seed_of(job, salt)};
   if (job.offsets > 0) settings.sampler = SamplerKind::Sobol;
   auto probe = ReferenceProbe::make(*job.scene, *job.quantity, settings);
   if (!probe) {
@@ -393,7 +394,8 @@ TEST_F(Reference, StepBiasOfARampIsTheOneStatedAndFallsWithTheSquareOfTheStep) {
   const double transmittance = std::exp(-c.quantities[0].expected[0]);
   double last = 0;
   for (const double step : {1.0, 0.5, 0.25}) {
-    auto probe = ReferenceProbe::make(c, *ramp->quantity, {DistanceSampling::Mis, step, SamplerKind::Sobol, 5});
+    auto probe =
+        ReferenceProbe::make(c, *ramp->quantity, {"decoupled", DistanceSampling::Mis, step, SamplerKind::Sobol, 5});
     ASSERT_TRUE(probe.ok());
     // Stratified offsets: 4096 strata leave an error of the order of the bias over 4096.
     const double measured = ramp->quantity->expected[0] - probe->radiance(4096).mean[0];

@@ -79,7 +79,7 @@ TEST(Smoke, WhiteFurnaceGivesOneAtAnyStep) {
     const auto s = committed(scene);
     ASSERT_EQ(s->step_size, s->shadow_step_size);
     // Over the middle of the picture, where there is smoke: each sample is a pixel of its own.
-    const auto integrator = make_integrator(s->render.integrator);
+    const auto integrator = make_integrator(*s);
     const int samples = (full() ? 8000000 : 2000000) / kFewer;
     Arena arena;
     RayStatistics statistics;

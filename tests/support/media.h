@@ -31,9 +31,11 @@ inline Medium homogeneous_box(Vec3d low, Vec3d high, Color sigma_s, Color sigma_
 /// A density of the z coordinate, in a box; marched.
 inline Medium profile_box(std::function<float(float)> density_of_z, Vec3d low, Vec3d high, Color sigma_s, Color sigma_t,
                           Color emission = {}) {
-  return medium_of(
-      std::make_shared<ProfileShader>(Affine{}, 0.1f, [f = std::move(density_of_z)](Vec3 p) { return f(p.z); }),
-      std::make_shared<BoxShape>(low, high), sigma_s, sigma_t, emission);
+  return medium_of(std::make_shared<ProfileShader>(
+                       Affine{}, 0.1f,
+                       ProfileShader::Profile{[f = std::move(density_of_z)](Vec3 p) { return f(p.z); },
+                                              [](const Bounds3&) { return std::numeric_limits<double>::infinity(); }}),
+                   std::make_shared<BoxShape>(low, high), sigma_s, sigma_t, emission);
 }
 
 /// A ray up the z axis from (0, 0, z).

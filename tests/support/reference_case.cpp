@@ -8,6 +8,7 @@
 
 #include "renderer/lights/registry.h"
 #include "renderer/phase/registry.h"
+#include "renderer/sampling/warps.h"
 #include "renderer/scene/volume.h"
 
 namespace brume {
@@ -89,6 +90,54 @@ void add_orders(ReferenceCase& c, const ReferenceRay& ray, const Json& expected,
   }
 }
 
+/// Fluxes of a slab 0 <= z <= b, and the radiances that tables of slabs print as R(mu), T(mu): R mu0 E / pi.
+void add_fluxes(ReferenceCase& c, const Json& expected, double relative_error) {
+  if (c.light.type != "directional" || c.bounds.type != "box" || !given(expected, "R_total")) return;
+  const double top = c.bounds.numbers.at("min")[2], bottom = c.bounds.numbers.at("max")[2];
+  const double mu0 = c.light.numbers.at("direction")[2], irradiance = c.light.numbers.at("irradiance")[0];
+  const auto quantity = [&](const std::string& name, bool reflected, double mu, double value, int bounces) {
+    ReferenceQuantity q;
+    q.name = name;
+    const double face = reflected ? top : bottom, towards = reflected ? 1.0 : -1.0;
+    const Vec3d direction{std::sqrt(1 - mu * mu), 0, mu * towards};
+    q.ray = {Vec3d(0, 0, face) - direction, direction, 0, 1e9};
+    q.expected = {value, value, value};
+    q.reference_error = relative_error;
+    q.bounces = bounces;
+    return q;
+  };
+  const auto flux = [&](const std::string& name, bool reflected, double value, int bounces) {
+    ReferenceQuantity q = quantity(name, reflected, 1, value, bounces);
+    q.measured = Measured::Flux;
+    q.scale = 3.14159265358979323846 / (mu0 * irradiance);
+    c.quantities.push_back(q);
+  };
+  const char* const totals[2] = {"R_total", "T_diffuse"};
+  const char* const by_order[2] = {"R_by_order", "T_diffuse_by_order"};
+  for (const bool reflected : {true, false}) {
+    const std::string name = reflected ? "R" : "T";
+    if (given(expected, totals[reflected ? 0 : 1]))
+      flux("flux " + name + ", all orders", reflected, expected.at(totals[reflected ? 0 : 1]).get<double>(),
+           kUnlimitedBounces);
+    if (given(expected, by_order[reflected ? 0 : 1])) {
+      double sum = 0;
+      int order = 0;
+      for (const double v : expected.at(by_order[reflected ? 0 : 1]).get<std::vector<double>>()) {
+        sum += v;
+        ++order;
+        flux("flux " + name + ", orders 1.." + std::to_string(order), reflected, sum, order - 1);
+      }
+    }
+    for (const auto& [key, value] : expected.items()) {
+      if (!key.starts_with(name + "_mu_")) continue;
+      const double mu = std::stod(key.substr(5));
+      ReferenceQuantity q = quantity(key + ", all orders", reflected, mu, value.get<double>(), kUnlimitedBounces);
+      q.scale = 3.14159265358979323846 / (mu0 * irradiance);
+      c.quantities.push_back(q);
+    }
+  }
+}
+
 ReferenceCase case_of(const Json& j) {
   ReferenceCase c;
   c.id = j.at("id").get<std::string>();
@@ -114,8 +163,10 @@ ReferenceCase case_of(const Json& j) {
     q.reference_error = error;
     if (given(expected, "optical_depth")) {
       q.name = "optical_depth";
+      q.measured = Measured::OpticalDepth;
       q.expected = channels_of(expected.at("optical_depth"));
       c.quantities.push_back(q);
+      q.measured = Measured::Radiance;
     }
     if (given(expected, "radiance")) {
       q.name = j.at("order") == 0 ? "emission" : "order 1";
@@ -130,6 +181,7 @@ ReferenceCase case_of(const Json& j) {
     }
     add_orders(c, ray, expected, error, "");
   }
+  add_fluxes(c, expected, error);
   if (given(expected, "rays"))
     for (const Json& view : expected.at("rays")) {
       char where[64];
@@ -339,14 +391,18 @@ Result<void> add_light_of(const ReferenceCase& c, bool visible, Node& scene) {
 Result<Node> describe(const ReferenceCase& c, const ReferenceQuantity& quantity, const ReferenceSettings& settings) {
   Node scene(*scene_family().tables.front());
   Node& render = scene.child("render");
+  const ParamTable* integrator = scene_family().tables.front()->find_slot("render")->family->find(settings.integrator);
+  if (!integrator) return bad_input("there is no integrator \"" + settings.integrator + "\"");
+  render = Node(*integrator);
+  const bool has_modes = integrator->find("distance_sampling"), marches = integrator->find("step_size");
   const auto steps = {
       add_volume_of(c, scene),
       add_light_of(c, quantity.background, scene),
-      render.set("distance_sampling", std::string(name_of(settings.distance_sampling))),
+      has_modes ? render.set("distance_sampling", std::string(name_of(settings.distance_sampling))) : Result<void>(),
       render.set("bounces", std::int64_t{quantity.bounces}),
       render.set("sampler", std::string(settings.sampler == SamplerKind::Sobol ? "sobol" : "independent")),
       render.set("seed", static_cast<std::int64_t>(settings.seed)),
-      settings.step_size > 0 ? render.set("step_size", settings.step_size) : Result<void>(),
+      settings.step_size > 0 && marches ? render.set("step_size", settings.step_size) : Result<void>(),
   };
   for (const auto& step : steps)
     if (!step) return step.error();
@@ -370,7 +426,7 @@ Result<ReferenceProbe> ReferenceProbe::make(const ReferenceCase& c, const Refere
 
   ReferenceProbe probe;
   probe.scene_ = std::move(*scene);
-  probe.integrator_ = make_integrator(probe.scene_->render.integrator);
+  probe.integrator_ = make_integrator(*probe.scene_);
   probe.arena_ = std::make_unique<Arena>();
   const ReferenceRay& ray = quantity.ray;
   probe.ray_ = {Vec3(ray.origin - probe.scene_->origin),
@@ -378,7 +434,9 @@ Result<ReferenceProbe> ReferenceProbe::make(const ReferenceCase& c, const Refere
                 {static_cast<float>(ray.tmin), static_cast<float>(ray.tmax)}};
   // The background is where the ray ends at no surface; all media end before tmax in the data.
   if (quantity.background) probe.ray_.span.end = std::numeric_limits<float>::infinity();
-  const bool takes_turns = settings.distance_sampling == DistanceSampling::Mis && probe.scene_->needs.equiangular;
+  probe.scale_ = quantity.scale;
+  const bool takes_turns = settings.integrator == "decoupled" && settings.distance_sampling == DistanceSampling::Mis &&
+                           probe.scene_->needs.equiangular;
   probe.passes_ = takes_turns ? 2 : 1;
   return probe;
 }
@@ -398,7 +456,7 @@ struct Accumulator {
     }
   }
   ReferenceEstimate estimate(std::uint64_t non_finite) const {
-    ReferenceEstimate out{mean, {}, static_cast<std::uint64_t>(count), non_finite};
+    ReferenceEstimate out{mean, {}, static_cast<std::uint64_t>(count), non_finite, 0};
     for (std::size_t k = 0; k < 3; ++k)
       out.standard_error[k] =
           count > 1 ? std::sqrt(m2[k] / (count * (count - 1))) : std::numeric_limits<double>::infinity();
@@ -408,28 +466,64 @@ struct Accumulator {
 
 }  // namespace
 
-ReferenceEstimate ReferenceProbe::radiance(std::uint64_t samples) {
+namespace {
+
+/// Mean of `sample` over `samples` samples of `passes` passes each.
+/// @param sample  Color(SampleContext&)
+template <class F>
+ReferenceEstimate estimate(const Scene& scene, Arena& arena, std::uint64_t samples, int passes, double scale,
+                           const F& sample) {
   Accumulator sum;
   RayStatistics statistics;
   std::uint64_t non_finite = 0;
   for (std::uint64_t i = 0; i < samples; ++i) {
-    Channels sample = {};
+    Channels total = {};
     bool finite = true;
-    for (int p = 0; p < passes_; ++p) {
+    for (int p = 0; p < passes; ++p) {
       // A sampler counts 2^32 passes of a pixel; enough for any run.
-      const Sampler sampler(scene_->render.sampler, scene_->render.seed, 0,
-                            static_cast<std::uint32_t>(i) * passes_ + p);
-      SampleContext context{*scene_, sampler, *arena_, statistics};
-      const Color c = integrator_->radiance(ray_, context);
+      const Sampler sampler(scene.render.sampler, scene.render.seed, 0, static_cast<std::uint32_t>(i) * passes + p);
+      SampleContext context{scene, sampler, arena, statistics};
+      const Color c = sample(context);
       finite &= is_finite(c);
-      for (int k = 0; k < 3; ++k) sample[static_cast<std::size_t>(k)] += static_cast<double>(c[k]) / passes_;
+      for (int k = 0; k < 3; ++k) total[static_cast<std::size_t>(k)] += scale * static_cast<double>(c[k]) / passes;
     }
     if (finite)
-      sum.add(sample);
+      sum.add(total);
     else
       ++non_finite;
   }
-  return sum.estimate(non_finite);
+  ReferenceEstimate result = sum.estimate(non_finite);
+  const double work = static_cast<double>(statistics.rays + statistics.shadow_rays) +
+                      static_cast<double>(statistics.march.lookups) / 16;
+  result.work = work / static_cast<double>(samples);
+  return result;
+}
+
+}  // namespace
+
+ReferenceEstimate ReferenceProbe::radiance(std::uint64_t samples) {
+  return estimate(*scene_, *arena_, samples, passes_, scale_,
+                  [&](SampleContext& context) { return integrator_->radiance(ray_, context); });
+}
+
+ReferenceEstimate ReferenceProbe::flux(std::uint64_t samples) {
+  const Frame frame(ray_.direction);
+  const Vec3 entry = ray_.at(1);  // the ray begins one unit before the face
+  return estimate(*scene_, *arena_, samples, passes_, scale_, [&](SampleContext& context) {
+    const Vec2 disc = uniform_disc(context.sampler.u2(Decision::Pixel));
+    const float up = std::sqrt(std::max(1e-6f, 1 - disc.x * disc.x - disc.y * disc.y));
+    const Vec3 direction = frame.to_world({disc.x, disc.y, up});
+    return integrator_->radiance({entry - direction, direction, ray_.span}, context);
+  });
+}
+
+ReferenceEstimate ReferenceProbe::transmittance(std::uint64_t samples) {
+  return estimate(*scene_, *arena_, samples, 1, 1, [&](SampleContext& context) {
+    RayDiagnostics met;
+    context.diagnostics = &met;
+    static_cast<void>(integrator_->radiance(ray_, context));
+    return met.transmittance;
+  });
 }
 
 ReferenceEstimate ReferenceProbe::optical_depth(std::uint64_t offsets) {
@@ -463,13 +557,13 @@ std::string CaseResult::to_string() const {
   return text;
 }
 
-CaseResult judge(const ReferenceCase& c, const ReferenceQuantity& quantity, DistanceSampling mode, int channel,
+CaseResult judge(const ReferenceCase& c, const ReferenceQuantity& quantity, const std::string& mode, int channel,
                  const ReferenceEstimate& estimate, double allowed_z, double floating, double bias) {
   const auto k = static_cast<std::size_t>(channel);
   CaseResult r;
   r.id = c.id;
   r.quantity = quantity.name;
-  r.mode = c.light.type.empty() ? "-" : name_of(mode);
+  r.mode = mode;
   r.channel = channel;
   r.expected = quantity.expected[k];
   r.mean = estimate.mean[k];

@@ -31,10 +31,19 @@ struct ReferenceKind {
   std::map<std::string, std::vector<double>> numbers;
 };
 
-/// One thing to measure. Values are radiances except for "optical_depth".
+/// What a quantity is.
+enum class Measured {
+  OpticalDepth,
+  Radiance,
+  Flux,  ///< leaving a slab through one face, over what arrives at it
+};
+
+/// One thing to measure.
 struct ReferenceQuantity {
   std::string name;  ///< "optical_depth", "emission", "order 1", "orders 1..4", "all orders", "... + background"
-  ReferenceRay ray;
+  Measured measured = Measured::Radiance;
+  ReferenceRay ray;  ///< of a flux: from the middle of the face against its normal
+  double scale = 1;  ///< what the measured radiance, or its mean over a hemisphere, is multiplied by
   Channels expected = {};
   double reference_error = 0;      ///< of the expected value, relative ...
   double reference_deviation = 0;  ///< ... or, where it is a Monte Carlo result, its standard error
@@ -84,8 +93,9 @@ double column_rounding(const ReferenceCase& c, const ReferenceRay& ray);
 // ---- Rendering ------------------------------------------------------------------------------------------------------
 
 struct ReferenceSettings {
-  DistanceSampling distance_sampling = DistanceSampling::Mis;
-  double step_size = 0;  ///< world units; 0: the medium's own
+  std::string integrator = "decoupled";
+  DistanceSampling distance_sampling = DistanceSampling::Mis;  ///< where the integrator has a choice
+  double step_size = 0;                                        ///< world units; 0: the medium's own
   SamplerKind sampler = SamplerKind::Independent;
   std::uint64_t seed = 1;
 };
@@ -99,6 +109,7 @@ struct ReferenceEstimate {
   Channels mean = {}, standard_error = {};
   std::uint64_t samples = 0;  ///< finite ones
   std::uint64_t non_finite = 0;
+  double work = 0;  ///< of one sample, in rays: look-ups count for a sixteenth
 
   /// Standard deviation of a single sample over the mean; 0 where the mean is 0.
   Channels relative_deviation() const;
@@ -114,6 +125,12 @@ class ReferenceProbe {
   /// turns between passes, so a sample is then the mean of two passes: halves of one estimator, not two estimators.
   ReferenceEstimate radiance(std::uint64_t samples);
 
+  /// The same over a hemisphere of rays, weighted by the cosine with the quantity's ray: the flux, over pi.
+  ReferenceEstimate flux(std::uint64_t samples);
+
+  /// Transmittance as the integrator reports it.
+  ReferenceEstimate transmittance(std::uint64_t samples);
+
   /// Optical depth as the integrator reports it, mean over `offsets` positions of the march's look-ups. With the Sobol'
   /// sampler and a power of two each of that many equal parts of a step gets one look-up, so the standard error (which
   /// assumes independence) is an upper bound.
@@ -124,6 +141,7 @@ class ReferenceProbe {
   std::unique_ptr<const Integrator> integrator_;
   std::unique_ptr<Arena> arena_;
   Ray ray_;
+  double scale_ = 1;
   int passes_ = 1;
 };
 
@@ -153,7 +171,7 @@ struct CaseResult {
 
 /// Judges one channel. Passes when the difference is within the tolerance, and every sample was finite.
 /// @param allowed_z  standard errors granted.  @param floating, bias  absolute
-CaseResult judge(const ReferenceCase& c, const ReferenceQuantity& quantity, DistanceSampling mode, int channel,
+CaseResult judge(const ReferenceCase& c, const ReferenceQuantity& quantity, const std::string& mode, int channel,
                  const ReferenceEstimate& estimate, double allowed_z, double floating, double bias);
 
 }  // namespace brume

@@ -50,7 +50,7 @@ double RayEstimate::relative_deviation(int c) const { return std::sqrt(channel[c
 RayEstimate estimate(const Scene& scene, const Ray& ray, int samples, int passes, std::uint32_t pixel) {
   RayEstimate out;
   Arena arena;
-  const auto integrator = make_integrator(scene.render.integrator);
+  const auto integrator = make_integrator(scene);
   for (int i = 0; i < samples; ++i) {
     double sum[3] = {};
     bool finite = true;

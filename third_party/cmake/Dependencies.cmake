@@ -1,8 +1,8 @@
 # Third-party libraries as imported targets. Their headers count as system headers, so they raise no warnings.
 #
 #   brume::openvdb brume::nanovdb brume::embree TBB::tbb OpenEXR::OpenEXR Imath::Imath PNG::PNG
-#   nlohmann_json::nlohmann_json hwy::hwy brume::stb Threads::Threads          for the renderer
-#   brume::imgui glfw brume::osmesa brume::egl CLI11::CLI11         for the program
+#   nlohmann_json::nlohmann_json hwy::hwy Threads::Threads                     for the renderer
+#   brume::imgui brume::stb glfw brume::osmesa brume::egl CLI11::CLI11         for the program
 #   GTest::gtest_main benchmark::benchmark                                     for the tests
 #
 # Everything is looked for before anything is complained about: one message names all that is missing.

@@ -78,7 +78,7 @@ TEST(RenderBatch, GivesTheSameBitsAtAnyNumberOfThreads) {
 
 TEST(RenderBatch, SamplesDoNotDependOnHowTheyAreDividedIntoRuns) {
   const auto scene = scene_of(1);
-  const auto integrator = make_integrator(scene->render.integrator);
+  const auto integrator = make_integrator(*scene);
   WorkerPool pool(2);
   Film film(kWidth, kHeight);
   for (std::uint32_t pass = 0; pass < 5; ++pass) EXPECT_TRUE(render_pass(*scene, *integrator, pass, film, pool, {}));
@@ -104,7 +104,7 @@ TEST(RenderBatch, ReportsWhatItHasDoneAndStopsWhenTold) {
 
 TEST(RenderPass, ACancelledPassSaysSoAndStopsWithinARowOfEveryThread) {
   const auto scene = scene_of(1);
-  const auto integrator = make_integrator(scene->render.integrator);
+  const auto integrator = make_integrator(*scene);
   WorkerPool pool(2);
   Film film(256, 256);
   std::atomic<int> asked = 0;
@@ -119,7 +119,7 @@ TEST(RenderPass, ACancelledPassSaysSoAndStopsWithinARowOfEveryThread) {
 
 TEST(RenderCoarse, IsTheSameViewWithFewerPixels) {
   const auto scene = scene_of(1);
-  const auto integrator = make_integrator(scene->render.integrator);
+  const auto integrator = make_integrator(*scene);
   WorkerPool pool(2);
   Image coarse;
   ASSERT_TRUE(render_coarse(*scene, *integrator, 64, 48, 4, coarse, pool, {}));

@@ -70,7 +70,7 @@ std::shared_ptr<const Scene> rich_scene(const char* bounces) {
 TEST(PixelSample, AllocatesNothingOnceTheArenaHasGrown) {
 #if BRUME_COUNTS_ALLOCATIONS
   const auto scene = rich_scene("8");
-  const auto integrator = make_integrator(scene->render.integrator);
+  const auto integrator = make_integrator(*scene);
   Arena arena;
   RayStatistics statistics;
   const auto sample = [&](std::uint32_t pixel) {
@@ -102,7 +102,7 @@ TEST(PixelSample, AllocatesNothingOnceTheArenaHasGrown) {
 TEST(PixelSample, AWholePassAllocatesNoMoreThanItsBookkeeping) {
 #if BRUME_COUNTS_ALLOCATIONS
   const auto scene = rich_scene("2");
-  const auto integrator = make_integrator(scene->render.integrator);
+  const auto integrator = make_integrator(*scene);
   WorkerPool pool(2);
   Film film(64, 64);
   for (std::uint32_t pass = 0; pass < 3; ++pass) render_pass(*scene, *integrator, pass, film, pool, {});
@@ -122,7 +122,7 @@ TEST(PixelSample, AWholePassAllocatesNoMoreThanItsBookkeeping) {
 TEST(PixelSample, MemoryDoesNotGrowWithTheNumberOfBounces) {
   const auto high_water = [](const char* bounces, std::uint64_t& rays) {
     const auto scene = rich_scene(bounces);
-    const auto integrator = make_integrator(scene->render.integrator);
+    const auto integrator = make_integrator(*scene);
     Arena arena;
     RayStatistics statistics;
     for (std::uint32_t p = 0; p < 400; ++p) {

@@ -172,7 +172,7 @@ TEST(DirectLight, EverySinglePassOfMisIsUnbiasedOverThePixels) {
     Node scene = fog(0.5, 0.7, "mis");
     set(scene, "render.sampler", sampler);
     const auto s = committed(scene);
-    const auto integrator = make_integrator(s->render.integrator);
+    const auto integrator = make_integrator(*s);
     Arena arena;
     RayStatistics statistics;
     for (const std::uint32_t pass : {0u, 1u, 6u}) {

@@ -14,6 +14,7 @@ const Vec3d kLow{-1, -1, 0}, kHigh{1, 1, 4};  // from z = 0 to 4
 class WitnessShader final : public Shader {
  public:
   ShaderTraits traits() const override { return {}; }
+  float max_density(const Bounds3& box) const override { return static_cast<float>(box.high.z); }
   void density(const PointBatch& points, float* density) const override {
     for (int i = 0; i < points.n; ++i)
       asked.push_back({points.x[i], points.y[i], points.z[i]}), density[i] = points.z[i];

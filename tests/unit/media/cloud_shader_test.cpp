@@ -213,7 +213,7 @@ TEST(CloudShader, TellsItsFinestScaleInWorldUnits) {
   EXPECT_FLOAT_EQ(*CloudShader(*inverse(scaling({10, 30, 20})), s).traits().finest_scale, 1.25f);  // along the shortest
   s.noise.octaves = 12;
   EXPECT_FLOAT_EQ(*CloudShader({}, s).traits().finest_scale, 2 * 0.6f / 100);
-  EXPECT_EQ(CloudShader({}, s).traits().max_density, 1.0f);
+  EXPECT_EQ(CloudShader({}, s).max_density({}), 1.0f);
   EXPECT_FALSE(CloudShader({}, s).traits().constant);
 }
 

@@ -126,8 +126,8 @@ TEST(HenyeyGreenstein, EndsOfTheUnitSquareAreForwardAndBackwardDirections) {
 }
 
 TEST(HenyeyGreenstein, ParameterBeyondTheRangeIsClamped) {
-  EXPECT_EQ(HenyeyGreenstein(1).value(0.5f), HenyeyGreenstein(0.999f).value(0.5f));
-  EXPECT_EQ(HenyeyGreenstein(-2).value(0.5f), HenyeyGreenstein(-0.999f).value(0.5f));
+  EXPECT_EQ(HenyeyGreenstein(1).value(0.5f), HenyeyGreenstein(0.9999).value(0.5f));
+  EXPECT_EQ(HenyeyGreenstein(-2).value(0.5f), HenyeyGreenstein(-0.9999).value(0.5f));
 }
 
 TEST(HenyeyGreenstein, WithoutAnisotropyIsIsotropic) {

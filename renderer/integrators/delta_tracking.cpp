@@ -1,0 +1,69 @@
+#include "renderer/integrators/delta_tracking.h"
+
+#include "renderer/integrators/path.h"
+#include "renderer/integrators/registry.h"
+#include "renderer/integrators/scatter_direction.h"
+#include "renderer/integrators/track.h"
+
+namespace brume {
+namespace {
+
+/// One path of channel c.
+template <int C> Color trace(Ray ray, int c, SampleContext& context) {
+  const Scene& scene = context.scene;
+  const Sampler& sampler = context.sampler;
+  Color radiance = visible_lights(scene, ray, [&](float t) { return transmittance_to<C>(ray, t, context); });
+  float beta = 1;
+  for (int bounce = 0;; ++bounce) {
+    const ArenaScope scope(context.arena);
+    ++context.statistics.rays;
+    auto collisions = track<C>(ray, Decision::Flight, bounce, 0, context);
+    const Collision<C>* real = nullptr;
+    for (int j = 0; !real; ++j) {
+      const Collision<C>* at = collisions.next();
+      if (!at) return radiance;
+      // Emission by the collision estimator: 1 / majorant at every tentative collision.
+      radiance += at->emission * (beta / at->majorant);
+      if (sampler.u1(Decision::RealCollision, bounce, j) * at->majorant < at->sigma_t[c]) real = at;
+    }
+    beta *= real->sigma_s[c] / real->sigma_t[c];
+    if (beta == 0) return radiance;
+
+    const Vec3 x = ray.at(real->t);
+    const PhaseMixture<C> phase(scene, real->densities);
+    radiance += beta * light_at_point(x, ray.direction, phase, bounce, 0, scene.render.light_samples, context,
+                                      shadow_by_tracking<C>(bounce, context));
+
+    if (bounce == scene.render.bounces) return radiance;
+    const auto scattered = scatter_direction(phase, x, ray.direction, bounce, context);
+    beta *= scattered.weight[c];
+    beta *= roulette(Color(beta), bounce, context);
+    if (beta == 0) return radiance;
+    ray = {x, scattered.direction};
+  }
+}
+
+template <int C> Color trace_one_channel(const Ray& ray, SampleContext& context) {
+  if (context.diagnostics) diagnose_by_tracking<C>(ray, context);
+  if constexpr (C == 1) return trace<1>(ray, 0, context);
+  const int c = std::min(static_cast<int>(3 * context.sampler.u1(Decision::Channel)), 2);
+  Color only;
+  only[c] = 3 * trace<C>(ray, C == 1 ? 0 : c, context)[c];
+  return only;
+}
+
+}  // namespace
+
+Color DeltaTrackingIntegrator::radiance(const Ray& camera_ray, SampleContext& context) const {
+  return context.scene.needs.channels == 1 ? trace_one_channel<1>(camera_ray, context)
+                                           : trace_one_channel<3>(camera_ray, context);
+}
+
+IntegratorType delta_tracking_integrator_type() {
+  return {integrator_table("delta_tracking", "Delta tracking",
+                           "Unbiased rejection with one majorant for all of the medium (Raab 2006).",
+                           {light_params(), path_params(), random_params()}),
+          make_as<DeltaTrackingIntegrator>};
+}
+
+}  // namespace brume

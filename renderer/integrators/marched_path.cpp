@@ -1,0 +1,47 @@
+#include "renderer/integrators/marched_path.h"
+
+#include "renderer/integrators/path.h"
+#include "renderer/integrators/scatter_direction.h"
+#include "renderer/march/distribute.h"
+
+namespace brume {
+
+template <int C> Spectrum<C> transmittance_to(const MarchRecord<C>& record, float t) {
+  Spectrum<C> clear;
+  for (float& v : clear.v) v = 1;
+  if (record.empty() || t <= record.span().begin) return clear;
+  return t >= record.span().end ? transmittance(record) : evaluate(record, t).transmittance;
+}
+
+template <int C> void diagnose(const MarchRecord<C>& record, RayDiagnostics& out) {
+  out.segments = record.n;
+  out.transmittance = to_color(transmittance(record));
+  for (int c = 0; c < 3 && !record.empty(); ++c)
+    out.optical_depth[c] = record.tau[static_cast<std::size_t>(C == 1 ? 0 : c)][record.n];
+}
+
+template <int C> bool scatter(const MarchRecord<C>& record, Ray& ray, Color& beta, int bounce, SampleContext& context) {
+  const DensitySampling<C> density(record);
+  const DistanceSample drawn = density.sample(context.sampler.u1(Decision::BounceDistance, bounce));
+  const RayPoint<C> at = evaluate(record, drawn.t);
+  const float pdf = density.pdf(at);
+  if (!(pdf > 0)) return false;
+  const Vec3 x = ray.at(drawn.t);
+  const PhaseMixture<C> phase(context.scene, record, at.segment, context.arena);
+  const auto scattered = scatter_direction(phase, x, ray.direction, bounce, context);
+  Spectrum<C> factor;
+  for (int c = 0; c < C; ++c) factor[c] = at.sigma_s[c] * at.transmittance[c] / pdf * scattered.weight[c];
+  beta *= to_color(factor);
+  if (!is_black(beta)) beta *= roulette(beta, bounce, context);
+  ray = {x, scattered.direction};  // without a third {}, which would be an empty span
+  return !is_black(beta);
+}
+
+template Spectrum<1> transmittance_to(const MarchRecord<1>&, float);
+template Spectrum<3> transmittance_to(const MarchRecord<3>&, float);
+template void diagnose(const MarchRecord<1>&, RayDiagnostics&);
+template void diagnose(const MarchRecord<3>&, RayDiagnostics&);
+template bool scatter(const MarchRecord<1>&, Ray&, Color&, int, SampleContext&);
+template bool scatter(const MarchRecord<3>&, Ray&, Color&, int, SampleContext&);
+
+}  // namespace brume

@@ -1,0 +1,171 @@
+#include "renderer/integrators/null_scattering.h"
+
+#include "renderer/integrators/path.h"
+#include "renderer/integrators/registry.h"
+#include "renderer/integrators/scatter_direction.h"
+#include "renderer/integrators/track.h"
+#include "renderer/march/equiangular.h"
+
+namespace brume {
+namespace {
+
+/// Per channel c: the measurement contribution f of the path so far, and the pdf p with which tracking led by channel c
+/// would have made it. Both lack the factors that all channels share.
+template <int C> struct Path {
+  Spectrum<C> f, p;
+  Path() {
+    for (int c = 0; c < C; ++c) f[c] = p[c] = 1;
+  }
+};
+
+template <int C> float mean_of(const Spectrum<C>& s) {
+  float sum = 0;
+  for (float v : s.v) sum += v;
+  return sum / C;
+}
+
+template <int C> Spectrum<C> operator*(const Spectrum<C>& a, const Spectrum<C>& b) {
+  Spectrum<C> r;
+  for (int c = 0; c < C; ++c) r[c] = a[c] * b[c];
+  return r;
+}
+
+/// One ray of a path: how it meets the lights, and where it goes on.
+template <int C> struct Leg {
+  const Ray& ray;
+  const Path<C>& path;
+  int bounce;
+  SampleContext& context;
+
+  /// Density of having come to a real collision after null collisions of product n, over that of their places.
+  float tracked_pdf(const Spectrum<C>& n, const Spectrum<C>& sigma_t) const { return mean_of(path.p * n * sigma_t); }
+
+  Color shadowed(const IncomingLight& in, Vec3 x, int index) const {
+    ++context.statistics.shadow_rays;
+    return in.scattered *
+           shadow_by_tracking<C>(bounce, context)(*context.scene.lights[0], Ray{x, in.wi, {0, in.distance}}, index);
+  }
+
+  float equiangular_pdf(const Light& light, const LightPoint& point, float t, Interval inside) const {
+    if (point.kind != LightPoint::Kind::Finite) return 0;
+    const Interval lit = intersect(inside, light.lit_part(point, {ray.origin, ray.direction, inside}));
+    return lit.empty() ? 0 : EquiangularSampling(ray, point.position, lit).pdf(t);
+  }
+
+  /// Light samples at the real collision that tracking has come to.
+  Color at_collision(const Collision<C>& at, const Spectrum<C>& n, Interval inside) const {
+    const Vec3 x = ray.at(at.t);
+    const PhaseMixture<C> phase(context.scene, at.densities);
+    const float tracked = tracked_pdf(n, at.sigma_t);
+    const Color value = to_color(path.f * n * at.sigma_s) / tracked;
+    if (is_black(value)) return {};
+    Color sum;
+    for_light_samples(
+        bounce, 0, context.scene.render.light_samples, context, [&](const Light& light, float factor, int index) {
+          const LightPoint point = light.sample_point(context.sampler.u2(Decision::LightPoint, bounce, index));
+          const IncomingLight in =
+              LightTechnique<C>(light, context, bounce, index).draw(point, x, ray.direction, phase);
+          if (is_black(in.scattered)) return;
+          const float mine = tracked * in.pdf_ratio;
+          const float other = mean_of(path.p) * equiangular_pdf(light, in.point, at.t, inside);
+          sum += value * shadowed(in, x, index) * (factor * mine / (mine + other));
+        });
+    return sum;
+  }
+
+  /// Light samples at distances drawn about the light points; the null collisions up to there are those of ratio
+  /// tracking, drawn with the density that tracking draws them with.
+  Color about_lights(Interval inside) const {
+    Color sum;
+    for_light_samples(
+        bounce, 1, context.scene.render.light_samples, context, [&](const Light& light, float factor, int index) {
+          const LightPoint point = light.sample_point(context.sampler.u2(Decision::LightPoint, bounce, index));
+          if (point.kind != LightPoint::Kind::Finite) return;
+          const Interval lit = intersect(inside, light.lit_part(point, {ray.origin, ray.direction, inside}));
+          if (lit.empty()) return;
+          const ArenaScope scope(context.arena);
+          const DistanceSample drawn = EquiangularSampling(ray, point.position, lit)
+                                           .sample(context.sampler.u1(Decision::EquiangularDistance, bounce, index));
+          if (!(drawn.pdf_t > 0)) return;
+          const Collision<C> at = collision_at<C>(context.scene.media, ray, drawn.t, context.scene.render.time,
+                                                  context.arena, context.statistics.march);
+          const Vec3 x = ray.at(drawn.t);
+          const PhaseMixture<C> phase(context.scene, at.densities);
+          if (mean_of(at.sigma_s) == 0) return;
+          const IncomingLight in =
+              LightTechnique<C>(light, context, bounce, index).towards(point, x, ray.direction, phase);
+          if (is_black(in.scattered)) return;
+          const Spectrum<C> n = tracked_transmittance<C>({ray.origin, ray.direction, {ray.span.begin, drawn.t}},
+                                                         Decision::EquiangularFlight, bounce, index, context);
+          const float mine = mean_of(path.p) * drawn.pdf_t;
+          const float other = tracked_pdf(n, at.sigma_t) * in.pdf_ratio;
+          sum += to_color(path.f * n * at.sigma_s) * shadowed(in, x, index) * (factor / (mine + other));
+        });
+    return sum;
+  }
+};
+
+template <int C> Color trace(Ray ray, SampleContext& context) {
+  const Scene& scene = context.scene;
+  const Sampler& sampler = context.sampler;
+  if (context.diagnostics) diagnose_by_tracking<C>(ray, context);
+  Color radiance = visible_lights(scene, ray, [&](float t) { return transmittance_to<C>(ray, t, context); });
+  const int leader = C == 1 ? 0 : std::min(static_cast<int>(3 * sampler.u1(Decision::Channel)), 2);
+  Path<C> path;
+  for (int bounce = 0;; ++bounce) {
+    const ArenaScope scope(context.arena);
+    ++context.statistics.rays;
+    const Presence presence = find_presence(scene.media, ray, context.arena);
+    if (presence.empty()) return radiance;
+    const Interval inside{presence.edges.front(), presence.edges.back()};
+    const Leg<C> leg{ray, path, bounce, context};
+
+    auto collisions = track<C>(ray, Decision::Flight, bounce, 0, context);
+    Spectrum<C> n;  // product of the null collisions' probabilities
+    for (float& v : n.v) v = 1;
+    const Collision<C>* real = nullptr;
+    for (int j = 0; !real; ++j) {
+      const Collision<C>* at = collisions.next();
+      const float reached = mean_of(path.p * n);
+      if (!at || reached == 0) break;
+      if (!is_black(at->emission)) radiance += to_color(path.f * n) * at->emission / (reached * at->majorant);
+      if (sampler.u1(Decision::RealCollision, bounce, j) * at->majorant < at->sigma_t[leader]) {
+        real = at;
+        break;
+      }
+      for (int c = 0; c < C; ++c) n[c] *= std::max(0.0f, 1 - at->sigma_t[c] / at->majorant);
+    }
+    if (scene.needs.equiangular) radiance += leg.about_lights(inside);
+    if (!real) return radiance;
+    radiance += leg.at_collision(*real, n, inside);
+
+    if (bounce == scene.render.bounces) return radiance;
+    const Vec3 x = ray.at(real->t);
+    const PhaseMixture<C> phase(scene, real->densities);
+    const auto scattered = scatter_direction(phase, x, ray.direction, bounce, context);
+    path.f = path.f * n * real->sigma_s * scattered.weight;
+    path.p = path.p * n * real->sigma_t;
+    const float pdf = mean_of(path.p);
+    if (!(pdf > 0)) return radiance;
+    for (int c = 0; c < C; ++c) path.f[c] /= pdf, path.p[c] /= pdf;
+    const float survivors = roulette(to_color(path.f), bounce, context);
+    for (float& v : path.f.v) v *= survivors;
+    if (is_black(to_color(path.f))) return radiance;
+    ray = {x, scattered.direction};
+  }
+}
+
+}  // namespace
+
+Color NullScatteringIntegrator::radiance(const Ray& camera_ray, SampleContext& context) const {
+  return context.scene.needs.channels == 1 ? trace<1>(camera_ray, context) : trace<3>(camera_ray, context);
+}
+
+IntegratorType null_scattering_integrator_type() {
+  return {integrator_table("null_scattering", "Null scattering",
+                           "Unbiased reference: tracking, equi-angular sampling and channels by MIS (Miller 2019).",
+                           {light_params(), majorant_params(), path_params(), random_params()}),
+          make_as<NullScatteringIntegrator>};
+}
+
+}  // namespace brume

@@ -1,0 +1,73 @@
+#include "renderer/integrators/ray_march.h"
+
+#include "renderer/integrators/marched_path.h"
+#include "renderer/integrators/path.h"
+#include "renderer/integrators/registry.h"
+#include "renderer/march/distribute.h"
+#include "renderer/march/shadow_march.h"
+
+namespace brume {
+
+template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context) const {
+  const Scene& scene = context.scene;
+  Color radiance, beta(1);
+  for (int bounce = 0;; ++bounce) {
+    const ArenaScope scope(context.arena);
+    ++context.statistics.rays;
+    const MarchSettings settings{scene.step_size, context.sampler.u1(Decision::MarchOffset, bounce), scene.render.time,
+                                 true};
+    MarchRecord<C> rec = record<C>(scene.media, {scene.needs.emission, scene.needs.overlap}, ray, settings,
+                                   context.arena, context.statistics.march);
+    if (!rec.empty()) distribute(rec, beta, context.arena);
+    if (bounce == 0) {
+      if (context.diagnostics) diagnose(rec, *context.diagnostics);
+      radiance = visible_lights(scene, ray, [&](float t) { return to_color(transmittance_to(rec, t)); });
+    }
+    if (rec.empty()) return radiance;
+    radiance += beta * emitted_radiance(rec);
+    if (!(rec.scattered() > 0)) return radiance;
+
+    for (int i = 0; i < rec.n; ++i) {
+      const ArenaScope step_scope(context.arena);
+      const float width = rec.t[i + 1] - rec.t[i];
+      const RayPoint<C> at = evaluate(rec, rec.t[i] + settings.offset * width, i);
+      Color scattered;
+      for (int c = 0; c < 3; ++c) {
+        const int channel = C == 1 ? 0 : c;
+        scattered[c] = at.sigma_s[channel] * at.transmittance[channel] * width;
+      }
+      if (is_black(scattered)) continue;
+      const PhaseMixture<C> phase(scene, rec, i, context.arena);
+      radiance += beta * scattered *
+                  light_at_point(ray.at(at.t), ray.direction, phase, bounce, i, scene.render.light_samples, context,
+                                 [&](const Light& light, const Ray& towards, int index) {
+                                   return shadow(light, towards, bounce, index, context);
+                                 });
+    }
+    if (bounce == scene.render.bounces) return radiance;
+    if (!scatter(rec, ray, beta, bounce, context)) return radiance;
+  }
+}
+
+Color RayMarchIntegrator::shadow(const Light&, const Ray& ray, int bounce, int index, SampleContext& context) const {
+  const Scene& scene = context.scene;
+  const MarchSettings settings{scene.shadow_step_size, context.sampler.u1(Decision::ShadowOffset, bounce, index),
+                               scene.render.time};
+  const auto march = [&]<int C>() {
+    return to_color(shadow_transmittance<C>(scene.media, ray, settings, context.arena, context.statistics.march));
+  };
+  return scene.needs.channels == 1 ? march.template operator()<1>() : march.template operator()<3>();
+}
+
+Color RayMarchIntegrator::radiance(const Ray& camera_ray, SampleContext& context) const {
+  return context.scene.needs.channels == 1 ? trace<1>(camera_ray, context) : trace<3>(camera_ray, context);
+}
+
+IntegratorType ray_march_integrator_type() {
+  return {integrator_table("ray_march", "Ray-marching",
+                           "Samples the lights at every step (Perlin & Hoffert 1989); bounces are Brume's addition.",
+                           {light_params(), march_params(), path_params(), random_params()}),
+          make_as<RayMarchIntegrator>};
+}
+
+}  // namespace brume

@@ -1,0 +1,172 @@
+#include "renderer/integrators/stochastic_march.h"
+
+#include "renderer/integrators/marched_path.h"
+#include "renderer/integrators/path.h"
+#include "renderer/integrators/registry.h"
+#include "renderer/integrators/scatter_direction.h"
+#include "renderer/march/distribute.h"
+#include "renderer/march/presence.h"
+#include "renderer/march/shadow_march.h"
+
+namespace brume {
+namespace {
+
+constexpr int kChunk = 32;  // steps marched before the random numbers are looked at again
+
+template <int C> struct Marching {
+  SampleContext& context;
+  int bounce;
+  Ray ray;
+  Color beta;
+  Spectrum<C> p;   // per channel: pdf of the path so far when that channel leads, relative
+  int leader = 0;  // the channel whose transmittance the random numbers are compared with
+  Color radiance = {};
+
+  // The place where the path may go on.
+  bool goes_on = false;
+  Ray next = {};
+  Color next_beta = {};
+  Spectrum<C> next_p = {};
+
+  /// The k-th distance is at an optical depth of the leader beyond `before`, inside the chunk.
+  void scatter_at(const MarchRecord<C>& rec, const Spectrum<C>& before, float depth, int k, int chosen) {
+    const auto lead = static_cast<std::size_t>(leader);
+    const float* tau = rec.tau[lead];
+    const float* above = std::upper_bound(tau + 1, tau + rec.n, depth);
+    const int i = static_cast<int>(above - tau) - 1;
+    const float sigma = rec.sigma_t[lead][i];
+    const float t = std::min(rec.t[i] + (sigma > 0 ? (depth - tau[i]) / sigma : 0), rec.t[i + 1]);
+    const RayPoint<C> at = evaluate(rec, t, i);
+
+    // f = sigma_s T, p = sigma_t T for every channel that might have led.
+    Spectrum<C> tracked;
+    float pdf = 0;
+    Color value = beta;
+    for (int c = 0; c < C; ++c) {
+      const float transmittance = std::exp(-before[c]) * at.transmittance[c];
+      tracked[c] = p[c] * rec.sigma_t[static_cast<std::size_t>(c)][i] * transmittance;
+      pdf += tracked[c] / C;
+      if (C == 3) value[c] *= at.sigma_s[c] * transmittance;
+    }
+    if (C == 1) value *= at.sigma_s[0] * std::exp(-before[0]) * at.transmittance[0];
+    if (!(pdf > 0) || is_black(value)) return;
+    value *= 1 / pdf;
+
+    const ArenaScope scope(context.arena);
+    const Scene& scene = context.scene;
+    const Vec3 x = ray.at(t);
+    const PhaseMixture<C> phase(scene, rec, i, context.arena);
+    light(x, phase, value * (1.0f / static_cast<float>(samples())), k);
+    if (k != chosen) return;
+    const auto scattered = scatter_direction(phase, x, ray.direction, bounce, context);
+    goes_on = true;
+    next = {x, scattered.direction};
+    next_beta = value * to_color(scattered.weight);
+    for (int c = 0; c < C; ++c) next_p[c] = tracked[c] / pdf;
+  }
+
+  int samples() const { return context.scene.render.light_samples; }
+
+  /// One shadow ray to every light, or to one of them.
+  void light(Vec3 x, const PhaseMixture<C>& phase, Color value, int k) {
+    const Scene& scene = context.scene;
+    radiance +=
+        value *
+        light_at_point(x, ray.direction, phase, bounce, k, 1, context, [&](const Light&, const Ray& shadow, int index) {
+          const MarchSettings settings{scene.shadow_step_size,
+                                       context.sampler.u1(Decision::ShadowOffset, bounce, index), scene.render.time};
+          return to_color(
+              shadow_transmittance<C>(scene.media, shadow, settings, context.arena, context.statistics.march));
+        });
+  }
+
+  void march() {
+    const Scene& scene = context.scene;
+    const int n = samples();
+    // Stratified numbers are sorted as they come.
+    const auto depth_of = [&](int k) {
+      const float xi = context.sampler.u1(Decision::DensityDistance, bounce, k);
+      return -std::log1p(-std::min((static_cast<float>(k) + xi) / static_cast<float>(n), 0x1.fffffep-1f));
+    };
+    const int chosen =
+        std::min(static_cast<int>(context.sampler.u1(Decision::BounceDistance, bounce) * static_cast<float>(n)), n - 1);
+    const float offset = context.sampler.u1(Decision::MarchOffset, bounce);
+    Spectrum<C> before;  // optical depth of the chunks behind
+    const Presence presence = find_presence(scene.media, ray, context.arena);
+    if (presence.empty()) return;
+    int k = 0;
+    const float end = presence.edges.back();
+    for (float from = presence.edges.front(); from < end;) {
+      const ArenaScope scope(context.arena);
+      const float to = std::min(end, from + kChunk * scene.step_size);
+      if (!(to > from)) return;
+      MarchRecord<C> rec =
+          record<C>(scene.media, {scene.needs.emission, scene.needs.overlap}, {ray.origin, ray.direction, {from, to}},
+                    {scene.step_size, offset, scene.render.time}, context.arena, context.statistics.march);
+      from = to;
+      if (rec.empty()) continue;
+      distribute(rec, beta, context.arena);
+      Color transmittance;
+      for (int c = 0; c < 3; ++c) transmittance[c] = std::exp(-before[C == 1 ? 0 : c]);
+      radiance += beta * transmittance * emitted_radiance(rec);
+      const float reached = before[leader] + rec.tau[static_cast<std::size_t>(leader)][rec.n];
+      for (; k < n && depth_of(k) < reached; ++k) scatter_at(rec, before, depth_of(k) - before[leader], k, chosen);
+      for (int c = 0; c < C; ++c) before[c] += rec.tau[static_cast<std::size_t>(c)][rec.n];
+      // Emission is collected on the whole ray, for it needs no random number.
+      if (k == n && !scene.needs.emission) return;
+    }
+  }
+};
+
+/// Transmittance for what the camera sees directly, by a march of its own.
+template <int C> Color marched(const Ray& ray, float t, SampleContext& context) {
+  const Scene& scene = context.scene;
+  return to_color(
+      shadow_transmittance<C>(scene.media, {ray.origin, ray.direction, {ray.span.begin, t}},
+                              {scene.step_size, context.sampler.u1(Decision::MarchOffset), scene.render.time},
+                              context.arena, context.statistics.march));
+}
+
+template <int C> Color trace(Ray ray, SampleContext& context) {
+  const Scene& scene = context.scene;
+  if (context.diagnostics) {
+    const auto depth = shadow_optical_depth<C>(
+        scene.media, ray, {scene.step_size, context.sampler.u1(Decision::MarchOffset), scene.render.time},
+        context.arena, context.statistics.march);
+    context.diagnostics->optical_depth = to_color(depth);
+    for (int c = 0; c < 3; ++c) context.diagnostics->transmittance[c] = std::exp(-to_color(depth)[c]);
+  }
+  Color radiance = visible_lights(scene, ray, [&](float t) { return marched<C>(ray, t, context); });
+  Spectrum<C> p;
+  for (float& v : p.v) v = 1;
+  const int leader = C == 1 ? 0 : std::min(static_cast<int>(3 * context.sampler.u1(Decision::Channel)), 2);
+  Color beta(1);
+  for (int bounce = 0;; ++bounce) {
+    const ArenaScope scope(context.arena);
+    ++context.statistics.rays;
+    Marching<C> marching{context, bounce, ray, beta, p, leader};
+    marching.march();
+    radiance += marching.radiance;
+    if (bounce == scene.render.bounces || !marching.goes_on) return radiance;
+    beta = marching.next_beta;
+    if (!is_black(beta)) beta *= roulette(beta, bounce, context);
+    if (is_black(beta)) return radiance;
+    ray = marching.next;
+    p = marching.next_p;
+  }
+}
+
+}  // namespace
+
+Color StochasticMarchIntegrator::radiance(const Ray& camera_ray, SampleContext& context) const {
+  return context.scene.needs.channels == 1 ? trace<1>(camera_ray, context) : trace<3>(camera_ray, context);
+}
+
+IntegratorType stochastic_march_integrator_type() {
+  return {integrator_table("stochastic_march", "Stochastic marching",
+                           "Marches until the transmittance falls below a random number (Lafortune 1996, Pauly 2000).",
+                           {light_params(), march_params(), path_params(), random_params()}),
+          make_as<StochasticMarchIntegrator>};
+}
+
+}  // namespace brume

@@ -1,0 +1,145 @@
+#include "renderer/march/tracking.h"
+
+#include <cmath>
+
+namespace brume {
+
+template <int C>
+TentativeCollisions<C>::TentativeCollisions(std::span<const Medium> media, const Majorants& majorants, const Ray& ray,
+                                            float time, const FlightNumbers& numbers, Arena& arena, MarchCounts& counts)
+    : media_(media), ray_(ray), time_(time), numbers_(numbers), arena_(arena), counts_(counts) {
+  presence_ = find_presence(media, ray, arena);
+  if (presence_.empty()) return;
+  const Interval inside = intersect(ray.span, {presence_.edges.front(), presence_.edges.back()});
+  stretches_ = majorants.along({ray.origin, ray.direction, inside}, arena);
+  if (stretches_.empty()) return;
+  at_ = stretches_.front().span.begin;
+  batch_ = arena.alloc_span<Collision<C>>(kLargestBatch);
+  x_ = arena.alloc_span<float>(kLargestBatch), y_ = arena.alloc_span<float>(kLargestBatch);
+  z_ = arena.alloc_span<float>(kLargestBatch), values_ = arena.alloc_span<float>(kLargestBatch);
+  if (media.size() > 1) densities_ = arena.alloc_span<float>(kLargestBatch * media.size());
+}
+
+template <int C> bool TentativeCollisions<C>::fly(float& t, float& majorant) {
+  if (stretch_ >= stretches_.size()) return false;
+  float tau = -std::log1p(-numbers_.next(drawn_++));
+  for (; stretch_ < stretches_.size(); ++stretch_) {
+    const MajorantStretch& s = stretches_[stretch_];
+    const float from = std::max(at_, s.span.begin), depth = s.majorant * (s.span.end - from);
+    if (tau < depth) {
+      at_ = t = std::min(from + tau / s.majorant, s.span.end);
+      majorant = s.majorant;
+      return true;
+    }
+    tau -= std::max(depth, 0.0f);
+  }
+  return false;
+}
+
+namespace {
+
+/// Looks the media up at the collisions, whose t is known; the arrays have room for as many points.
+template <int C>
+void look_up(std::span<const Medium> media, const Presence& presence, const Ray& ray, float time,
+             std::span<Collision<C>> batch, std::span<float> densities, std::span<float> x, std::span<float> y,
+             std::span<float> z, std::span<float> values, MarchCounts& counts) {
+  const std::size_t n = batch.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    Collision<C>& c = batch[i];
+    const Vec3 p = ray.at(c.t);
+    x[i] = p.x, y[i] = p.y, z[i] = p.z;
+    c.sigma_t = c.sigma_s = {};
+    c.emission = {};
+    c.densities = densities.empty() ? std::span<const float>() : densities.subspan(i * media.size(), media.size());
+  }
+  if (n == 0) return;
+  const PointBatch points{x.data(), y.data(), z.data(), static_cast<int>(n), time};
+  for (std::size_t m = 0; m < media.size(); ++m) {
+    const Medium& medium = media[m];
+    if (medium.traits.constant) {
+      std::fill_n(values.begin(), n, 1.0f);
+    } else {
+      medium.shader->density(points, values.data());
+      counts.lookups += n;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      Collision<C>& c = batch[i];
+      if (!presence.contains(m, c.t)) values[i] = 0;
+      if (!densities.empty()) densities[i * media.size() + m] = values[i];
+      for (int k = 0; k < C; ++k) {
+        c.sigma_t[k] += values[i] * medium.sigma_t[k];
+        c.sigma_s[k] += values[i] * medium.sigma_s[k];
+      }
+      if (medium.emits() && !medium.traits.own_emission) c.emission += medium.emission * values[i];
+    }
+    if (!medium.emits() || !medium.traits.own_emission) continue;
+    medium.shader->emission(points, values.data());
+    counts.lookups += n;
+    for (std::size_t i = 0; i < n; ++i)
+      if (presence.contains(m, batch[i].t)) batch[i].emission += medium.emission * values[i];
+  }
+}
+
+}  // namespace
+
+template <int C> void TentativeCollisions<C>::fill() {
+  size_ = used_ = 0;
+  for (; size_ < capacity_; ++size_) {
+    Collision<C>& c = batch_[static_cast<std::size_t>(size_)];
+    if (!fly(c.t, c.majorant)) break;
+  }
+  capacity_ = std::min(2 * capacity_, kLargestBatch);
+  look_up(media_, presence_, ray_, time_, batch_.first(static_cast<std::size_t>(size_)), densities_, x_, y_, z_,
+          values_, counts_);
+}
+
+template <int C> const Collision<C>* TentativeCollisions<C>::next() {
+  if (used_ == size_) {
+    if (stretches_.empty()) return nullptr;
+    fill();
+    if (size_ == 0) return nullptr;
+  }
+  return &batch_[static_cast<std::size_t>(used_++)];
+}
+
+template <int C>
+Spectrum<C> ratio_tracking(std::span<const Medium> media, const Majorants& majorants, const Ray& ray, float time,
+                           const FlightNumbers& numbers, Arena& arena, MarchCounts& counts) {
+  const ArenaScope scope(arena);
+  Spectrum<C> result;
+  for (float& v : result.v) v = 1;
+  TentativeCollisions<C> collisions(media, majorants, ray, time, numbers, arena, counts);
+  while (const Collision<C>* c = collisions.next()) {
+    float largest = 0;
+    for (int k = 0; k < C; ++k) {
+      result[k] *= std::max(0.0f, 1 - c->sigma_t[k] / c->majorant);
+      largest = std::max(largest, result[k]);
+    }
+    if (largest == 0) break;
+  }
+  return result;
+}
+
+template <int C>
+Collision<C> collision_at(std::span<const Medium> media, const Ray& ray, float t, float time, Arena& arena,
+                          MarchCounts& counts) {
+  const Presence presence = find_presence(media, ray, arena);
+  const auto numbers = [&] { return arena.alloc_span<float>(1); };
+  const auto densities = media.size() > 1 ? arena.alloc_span<float>(media.size()) : std::span<float>();
+  Collision<C> at;
+  at.t = t;
+  at.majorant = 0;
+  look_up(media, presence, ray, time, std::span(&at, 1), densities, numbers(), numbers(), numbers(), numbers(), counts);
+  return at;
+}
+
+template Collision<1> collision_at(std::span<const Medium>, const Ray&, float, float, Arena&, MarchCounts&);
+template Collision<3> collision_at(std::span<const Medium>, const Ray&, float, float, Arena&, MarchCounts&);
+template class TentativeCollisions<1>;
+template class TentativeCollisions<3>;
+template Spectrum<1> ratio_tracking(std::span<const Medium>, const Majorants&, const Ray&, float, const FlightNumbers&,
+                                    Arena&, MarchCounts&);
+template Spectrum<3> ratio_tracking(std::span<const Medium>, const Majorants&, const Ray&, float, const FlightNumbers&,
+                                    Arena&, MarchCounts&);
+
+}  // namespace brume
