@@ -18,6 +18,8 @@ template <int C> Color trace(Ray ray, int c, SampleContext& context) {
     const ArenaScope scope(context.arena);
     ++context.statistics.rays;
     auto collisions = track<C>(ray, Decision::Flight, bounce, 0, context);
+    for (int other = 0; other < C; ++other)
+      if (other != c) collisions.drop(other);
     const Collision<C>* real = nullptr;
     for (int j = 0; !real; ++j) {
       const Collision<C>* at = collisions.next();

@@ -133,7 +133,11 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
         real = at;
         break;
       }
-      for (int c = 0; c < C; ++c) n[c] *= std::max(0.0f, 1 - at->sigma_t[c] / at->majorant);
+      const Collision<C> null = *at;
+      for (int c = 0; c < C; ++c) {
+        n[c] *= std::max(0.0f, 1 - null.sigma_t[c] / null.majorant);
+        if (n[c] == 0) collisions.drop(c);
+      }
     }
     if (scene.needs.equiangular) radiance += leg.about_lights(inside);
     if (!real) return radiance;

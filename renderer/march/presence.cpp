@@ -6,7 +6,7 @@ namespace brume {
 
 bool Presence::contains(std::size_t medium, float t) const {
   const auto& intervals = of_medium[medium];
-  return std::any_of(intervals.begin(), intervals.end(), [t](Interval i) { return t > i.begin && t < i.end; });
+  return std::any_of(intervals.begin(), intervals.end(), [t](Interval i) { return t >= i.begin && t < i.end; });
 }
 
 Presence find_presence(std::span<const Medium> media, const Ray& ray, Arena& arena) {

@@ -12,6 +12,7 @@ struct Presence {
   std::span<float> edges;  ///< where any medium begins or ends, ascending, each once; fewer than 2: no medium at all
 
   bool empty() const { return edges.size() < 2; }
+  /// The begin of an interval counts as inside: in a dense medium a free flight may be too short to leave it.
   bool contains(std::size_t medium, float t) const;
 };
 

@@ -13,7 +13,7 @@ TentativeCollisions<C>::TentativeCollisions(std::span<const Medium> media, const
   const Interval inside = intersect(ray.span, {presence_.edges.front(), presence_.edges.back()});
   stretches_ = majorants.along({ray.origin, ray.direction, inside}, arena);
   if (stretches_.empty()) return;
-  at_ = stretches_.front().span.begin;
+  at_ = static_cast<double>(stretches_.front().span.begin);
   batch_ = arena.alloc_span<Collision<C>>(kLargestBatch);
   x_ = arena.alloc_span<float>(kLargestBatch), y_ = arena.alloc_span<float>(kLargestBatch);
   z_ = arena.alloc_span<float>(kLargestBatch), values_ = arena.alloc_span<float>(kLargestBatch);
@@ -22,16 +22,21 @@ TentativeCollisions<C>::TentativeCollisions(std::span<const Medium> media, const
 
 template <int C> bool TentativeCollisions<C>::fly(float& t, float& majorant) {
   if (stretch_ >= stretches_.size()) return false;
-  float tau = -std::log1p(-numbers_.next(drawn_++));
+  double tau = -std::log1p(-static_cast<double>(numbers_.next(drawn_++)));
   for (; stretch_ < stretches_.size(); ++stretch_) {
     const MajorantStretch& s = stretches_[stretch_];
-    const float from = std::max(at_, s.span.begin), depth = s.majorant * (s.span.end - from);
+    float wanted = 0;
+    for (int c = 0; c < C; ++c)
+      if (!dropped_[c]) wanted = std::max(wanted, C == 1 ? max_channel(s.majorant) : s.majorant[c]);
+    const double sigma = static_cast<double>(wanted), end = static_cast<double>(s.span.end);
+    const double from = std::max(at_, static_cast<double>(s.span.begin)), depth = sigma * (end - from);
     if (tau < depth) {
-      at_ = t = std::min(from + tau / s.majorant, s.span.end);
-      majorant = s.majorant;
+      at_ = from + tau / sigma;
+      t = std::min(static_cast<float>(at_), s.span.end);
+      majorant = wanted;
       return true;
     }
-    tau -= std::max(depth, 0.0f);
+    tau -= std::max(depth, 0.0);
   }
   return false;
 }
@@ -87,6 +92,7 @@ template <int C> void TentativeCollisions<C>::fill() {
   for (; size_ < capacity_; ++size_) {
     Collision<C>& c = batch_[static_cast<std::size_t>(size_)];
     if (!fly(c.t, c.majorant)) break;
+    ends_[static_cast<std::size_t>(size_)] = {at_, stretch_};
   }
   capacity_ = std::min(2 * capacity_, kLargestBatch);
   look_up(media_, presence_, ray_, time_, batch_.first(static_cast<std::size_t>(size_)), densities_, x_, y_, z_,
@@ -99,7 +105,18 @@ template <int C> const Collision<C>* TentativeCollisions<C>::next() {
     fill();
     if (size_ == 0) return nullptr;
   }
-  return &batch_[static_cast<std::size_t>(used_++)];
+  const auto i = static_cast<std::size_t>(used_++);
+  here_ = ends_[i].at, here_stretch_ = ends_[i].stretch;
+  return &batch_[i];
+}
+
+template <int C> void TentativeCollisions<C>::drop(int channel) {
+  if (dropped_[channel]) return;
+  dropped_[channel] = true;
+  // Free flights have no memory: those that were drawn ahead are forgotten, and new ones start from here.
+  used_ = size_ = 0;
+  at_ = here_;
+  stretch_ = here_stretch_;
 }
 
 template <int C>
@@ -110,12 +127,13 @@ Spectrum<C> ratio_tracking(std::span<const Medium> media, const Majorants& major
   for (float& v : result.v) v = 1;
   TentativeCollisions<C> collisions(media, majorants, ray, time, numbers, arena, counts);
   while (const Collision<C>* c = collisions.next()) {
-    float largest = 0;
+    int gone = 0;
+    const Collision<C> at = *c;
     for (int k = 0; k < C; ++k) {
-      result[k] *= std::max(0.0f, 1 - c->sigma_t[k] / c->majorant);
-      largest = std::max(largest, result[k]);
+      result[k] *= std::max(0.0f, 1 - at.sigma_t[k] / at.majorant);
+      if (result[k] == 0) collisions.drop(k), ++gone;
     }
-    if (largest == 0) break;
+    if (gone == C) break;
   }
   return result;
 }

@@ -40,6 +40,9 @@ template <int C> class TentativeCollisions {
   /// The next one; null when the ray has left the media.
   const Collision<C>* next();
 
+  /// From the last collision on, nothing in this channel matters any more: its majorant is left out.
+  void drop(int channel);
+
  private:
   static constexpr int kLargestBatch = 16;
 
@@ -55,13 +58,21 @@ template <int C> class TentativeCollisions {
   Presence presence_;
   std::span<const MajorantStretch> stretches_;
   std::size_t stretch_ = 0;
-  float at_ = 0;   // where the last flight ended
+  struct End {
+    double at;
+    std::size_t stretch;
+  };
+  End ends_[kLargestBatch];  // of the flights of the batch
+  double here_ = 0;          // of the last collision that was handed out
+  std::size_t here_stretch_ = 0;
+  double at_ = 0;  // where the last flight ended; flights may be shorter than a float's spacing
   int drawn_ = 0;  // numbers used
 
   std::span<Collision<C>> batch_;
   std::span<float> densities_;           // [kLargestBatch][media], where there are several
   std::span<float> x_, y_, z_, values_;  // [kLargestBatch]
   int size_ = 0, used_ = 0, capacity_ = 2;
+  bool dropped_[C] = {};
 };
 
 /// What is at one point of a ray; its majorant is not set. The densities lie in the arena.

@@ -33,14 +33,14 @@ Majorants::Majorants(std::span<const Medium> media, const Bounds3& bounds, int c
       for (int z = 0; z < extent_[2]; ++z) {
         const Vec3d low = box.low + Vec3d(size.x * x, size.y * y, size.z * z);
         const Bounds3 part{low - slack, low + size + slack};
-        float sum = 0;
+        Color sum;
         for (const Medium& m : media)
-          if (!is_black(m.sigma_t)) sum += max_channel(m.sigma_t) * m.shader->max_density(part);
-        cell(x, y, z) = std::max(sum, floor) * 1.00001f;
+          if (!is_black(m.sigma_t)) sum += m.sigma_t * m.shader->max_density(part);
+        for (int c = 0; c < 3; ++c) cell(x, y, z)[c] = std::max(sum[c], floor) * 1.00001f;
       }
 }
 
-float& Majorants::cell(int x, int y, int z) {
+Color& Majorants::cell(int x, int y, int z) {
   return values_[static_cast<std::size_t>((x * extent_[1] + y) * extent_[2] + z)];
 }
 
@@ -78,7 +78,7 @@ std::span<const MajorantStretch> Majorants::along(const Ray& ray, Arena& arena) 
   while (at < end && n < most) {
     const int k = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
     const double leave = std::min(next[k], end);
-    const float value = values_[static_cast<std::size_t>((place[0] * extent_[1] + place[1]) * extent_[2] + place[2])];
+    const Color value = values_[static_cast<std::size_t>((place[0] * extent_[1] + place[1]) * extent_[2] + place[2])];
     const Interval span{static_cast<float>(at), static_cast<float>(leave)};
     if (!span.empty()) {
       if (n > 0 && stretches[n - 1].majorant == value)

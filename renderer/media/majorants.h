@@ -11,14 +11,13 @@ namespace brume {
 /// A part of a ray on which the extinction does not exceed `majorant`.
 struct MajorantStretch {
   Interval span;
-  float majorant;  ///< 1/world unit, >= sigma_t of every channel
+  Color majorant;  ///< 1/world unit, >= sigma_t in each channel
 };
 
-/// Boxes that fill the scene's bounds, each with an upper bound of sigma_t (summed over the media, of the largest
-/// channel) inside. One box is the global majorant of Raab et al. 2006; many are the local ones of Yue et al. 2010,
-/// "Unbiased, Adaptive Stochastic Sampling for Rendering Inhomogeneous Participating Media", in a plain grid.
-/// Where media glow, the majorant is at least 4 over the scene's diagonal, so that emission is met in thin media too.
-/// Immutable; any thread.
+/// Boxes that fill the scene's bounds, each with an upper bound of sigma_t (summed over the media) inside. One box is
+/// the global majorant of Raab et al. 2006; many are the local ones of Yue et al. 2010, "Unbiased, Adaptive Stochastic
+/// Sampling for Rendering Inhomogeneous Participating Media", in a plain grid. Where media glow, the majorant is at
+/// least 4 over the scene's diagonal, so that emission is met in thin media too. Immutable; any thread.
 class Majorants {
  public:
   Majorants() = default;
@@ -29,11 +28,11 @@ class Majorants {
   std::span<const MajorantStretch> along(const Ray& ray, Arena& arena) const;
 
  private:
-  float& cell(int x, int y, int z);
+  Color& cell(int x, int y, int z);
 
   Vec3 low_, cell_size_;
   int extent_[3] = {0, 0, 0};
-  std::vector<float> values_;
+  std::vector<Color> values_;
 };
 
 }  // namespace brume

@@ -152,7 +152,8 @@ ReferenceCase case_of(const Json& j) {
   if (given(medium, "emission")) c.emission = channels_of(medium.at("emission"));
   if (given(j, "light")) c.light = kind_of(j.at("light"));
   c.phase_g = given(j, "phase_g") ? j.at("phase_g").get<double>() : 0.0;
-  if (!given(j, "expected")) return c;
+  if (given(j, "ray")) c.ray = ray_of(j.at("ray"));
+  if (!c.property.empty() || !given(j, "expected")) return c;
   const Json& expected = j.at("expected");
   const double error = given(j, "relative_error_bound") ? j.at("relative_error_bound").get<double>() : 0.0;
 
@@ -369,7 +370,8 @@ Result<void> add_volume_of(const ReferenceCase& c, Node& scene) {
   }
   if (c.phase_g != 0) {
     volume.child("phase") = Node(*phase_family().find("henyey_greenstein"));
-    if (const auto ok = volume.child("phase").set("g", c.phase_g); !ok) return ok;
+    // The phase function's range ends at 0.9999; the data allow that to be clamped.
+    if (const auto ok = volume.child("phase").set("g", std::clamp(c.phase_g, -0.9999, 0.9999)); !ok) return ok;
   }
   scene.list("volumes").push_back(std::move(volume));
   return {};

@@ -62,6 +62,7 @@ struct ReferenceCase {
   Channels sigma_s = {}, sigma_a = {}, emission = {};
   ReferenceKind light;  // empty type: none
   double phase_g = 0;
+  ReferenceRay ray;  ///< the camera's, where there is a single one
   std::vector<ReferenceQuantity> quantities;
   std::string property;  ///< instead of a right number: what must hold
 

@@ -143,7 +143,11 @@ double scattering_bias(const ReferenceCase& c, const ReferenceRay& ray, double s
 void plan_scattering(Comparison& job) {
   const ReferenceCase& c = *job.scene;
   const ReferenceQuantity& q = *job.quantity;
-  job.floating = scaled(q.expected, c.has_tag("float32_ill_conditioned") ? 1e-4 : kFloatError);
+  // Where rounding the world's coordinates to float moves the answer, the reference asks for 1e-4 of a tool that takes
+  // the medium's origin away in double, as Brume does where a scene is far from the world's origin. A ray that grazes a
+  // sphere at 1e-6 of its radius has no such origin: 1e-2.
+  const bool ill = c.has_tag("float32_ill_conditioned");
+  job.floating = scaled(q.expected, !ill ? kFloatError : c.has_tag("grazing") ? 1e-2 : 1e-4);
   if (!c.heterogeneous() || job.method.tracks()) return;
   const double length = reference_span(c, q.ray).length();
   job.step = length / 50;
@@ -283,15 +287,15 @@ std::vector<ReferenceMethod> default_reference_methods() {
 
 Result<std::vector<ReferenceMethod>> reference_methods(const std::string& key) {
   std::vector<ReferenceMethod> methods;
-  std::vector<std::string> known;
+  std::vector<std::string> known{"all"};
   for (const ReferenceMethod& m : default_reference_methods()) {
     if (m.integrator != "decoupled") continue;
     known.push_back("decoupled:" + std::string(name_of(m.mode)));
-    if (key == "decoupled" || key == known.back()) methods.push_back(m);
+    if (key == "all" || key == "decoupled" || key == known.back()) methods.push_back(m);
   }
   for (const IntegratorType& t : integrator_types()) {
     known.push_back(t.table.key);
-    if (key == t.table.key && key != "decoupled") methods.push_back({key});
+    if ((key == "all" || key == t.table.key) && t.table.key != "decoupled") methods.push_back({t.table.key});
   }
   if (methods.empty()) return bad_input("found \"" + key + "\", expected one of " + join(known));
   return methods;
@@ -304,13 +308,26 @@ bool ReferenceOutcome::passed() const {
 
 std::string reference_expected_failure(const ReferenceCase& c, const ReferenceQuantity& q,
                                        const ReferenceMethod& method) {
-  const bool blind = method.integrator == "decoupled" && method.mode == DistanceSampling::Density;
-  const bool tracked = method.integrator.find("delta_tracking") == 0 || method.integrator == "stochastic_march";
-  if ((blind || tracked) && q.name.find("order") != std::string::npos && c.has_tag("near_singular"))
+  if (q.measured == Measured::OpticalDepth || q.name == "emission") return {};
+  const bool decoupled = method.integrator == "decoupled", density = method.mode == DistanceSampling::Density;
+  const bool blind = method.integrator.find("delta_tracking") == 0 || method.integrator == "stochastic_march" ||
+                     (decoupled && density);
+  if (blind && c.has_tag("near_singular"))
     return "distances that do not know of the light: the second moment of 1/r^2 grows as 1/D^3";
-  if (method.integrator == "decoupled" && method.mode == DistanceSampling::Equiangular &&
-      c.id == "ss_hom_sphere_out_st1000")
+  if (decoupled && method.mode == DistanceSampling::Equiangular && c.id == "ss_hom_sphere_out_st1000")
     return "angles that do not know of the extinction: all light is scattered in a skin of 1/1000";
+  if (c.has_tag("sigma_inf") && largest(extinction(c)) >= 1e6)
+    return "positions are floats: a mean free path of 1e-6 is a few of their spacings";
+  if ((method.tracks() || method.integrator == "stochastic_march") && c.id.find("_st1e-06") != std::string::npos &&
+      blind)
+    return "scattering distances that are drawn for the whole way out: a medium this thin is met once in a million";
+  // Light that comes through the medium from its other side.
+  const bool through = q.name.find("transmit") == 0 || q.name.find("flux T") == 0 || q.name.find("T_mu") == 0 ||
+                       c.id == "ss_hom_box_in_st10" || c.id == "ss_hom_box_out_st10";
+  if (through && !decoupled && largest(q.expected) < 1e-4)
+    return "tracking: through N mean free paths light is met about once in exp(N) samples";
+  if (through && c.light.type == "directional" && largest(q.expected) < 1e-7)
+    return "nearly all light takes paths that are drawn too rarely to be seen in the samples of a test";
   return {};
 }
 
@@ -328,6 +345,7 @@ Result<std::vector<ReferenceOutcome>> run_references(const std::vector<std::stri
   for (std::size_t f = 0; f < files.size(); ++f)
     for (std::size_t i = 0; i < cases[f].size(); ++i) {
       if (!only.empty() && cases[f][i].id != only) continue;
+      if (!options.tag.empty() && !cases[f][i].has_tag(options.tag)) continue;
       found = true;
       plan_case(cases[f][i], std::filesystem::path(files[f]).stem().string(), i, options, jobs);
     }

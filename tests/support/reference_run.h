@@ -34,6 +34,7 @@ struct ReferenceOptions {
   double relative_error = 3e-3;          ///< aim for the standard error
   double seconds = 0.25;                 ///< CPU time that a comparison may take; fewer samples then, and more noise
   std::optional<std::uint64_t> samples;  ///< instead of both
+  std::string tag;                       ///< only cases with this tag; empty: all
   bool everything = false;               ///< every quantity of every case; else a choice that differs from case to case
 };
 

@@ -72,8 +72,8 @@ TEST(Majorants, StretchesCoverTheRayInOrderAndMoreCellsBoundTighter) {
     for (std::size_t k = 0; k < parts.size(); ++k) {
       EXPECT_LT(parts[k].span.begin, parts[k].span.end);
       EXPECT_EQ(parts[k].span.begin, k > 0 ? parts[k - 1].span.end : parts[k].span.begin);
-      EXPECT_LE(parts[k].majorant, whole[0].majorant * 1.0001f);
-      saved += double(whole[0].majorant - parts[k].majorant) * double(parts[k].span.length());
+      EXPECT_LE(parts[k].majorant.g, whole[0].majorant.g * 1.0001f);
+      saved += double(whole[0].majorant.g - parts[k].majorant.g) * double(parts[k].span.length());
     }
   }
   EXPECT_GT(saved, 0);
