@@ -27,6 +27,13 @@ ParamRowContext row_context(const Session& session, const Node& node, const Para
   return context;
 }
 
+/// "Type", "Shader", "Integrator": the key that a scene file says it with.
+std::string label_of_choice(const Family& family) {
+  std::string label = family.type_key;
+  label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+  return label;
+}
+
 void draw_kind(Session& session, const NodePath& path, const Family& family, const Node& node) {
   if (family.tables.size() < 2) return;
   std::vector<std::string> labels;
@@ -35,7 +42,8 @@ void draw_kind(Session& session, const NodePath& path, const Family& family, con
     if (family.tables[i] == &node.table()) index = static_cast<int>(i);
     labels.push_back(family.tables[i]->label);
   }
-  ui::PropertyRow row(family.noun == "volume" ? "Shader" : "Type", {.doc = node.table().doc, .modified = false});
+  const std::string label = label_of_choice(family);  // outlives the row
+  ui::PropertyRow row(label.c_str(), {.doc = node.table().doc, .modified = false});
   if (ui::combo(row.id(), index, labels)) {
     session.change([&](Node& d) {
       if (Node* n = path.find(d)) *n = n->converted_to(*family.tables[static_cast<std::size_t>(index)]);

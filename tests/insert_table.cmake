@@ -1,0 +1,16 @@
+# Puts a table between the README's marks. Usage: cmake -D README=... -D TABLE=... -P tests/insert_table.cmake
+
+file(READ ${README} text)
+file(READ ${TABLE} table)
+set(begin "<!-- reference table -->")
+set(end "<!-- end of reference table -->")
+string(FIND "${text}" "${begin}" from)
+string(FIND "${text}" "${end}" to)
+if(from EQUAL -1 OR to EQUAL -1)
+  message(FATAL_ERROR "${README} has no marks for the reference table")
+endif()
+string(LENGTH "${begin}" length)
+math(EXPR from "${from} + ${length}")
+string(SUBSTRING "${text}" 0 ${from} head)
+string(SUBSTRING "${text}" ${to} -1 tail)
+file(WRITE ${README} "${head}\n${table}${tail}")
