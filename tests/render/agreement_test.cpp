@@ -21,7 +21,7 @@ bool full() {
   return value && std::string(value) == "1";
 }
 
-constexpr int kWidth = 32, kHeight = 24;
+constexpr int kWidth = 16, kHeight = 12;
 
 Node view() {
   Node scene = empty_scene();
@@ -98,26 +98,30 @@ Film rendered(Node scene, const std::string& integrator, int samples, int seed) 
 }
 
 struct Difference {
-  int pixels = 0, outside = 0;  // of the test's bound
-  double relative = 0;          // of the means of the whole pictures
+  int pixels = 0, outside = 0;     // pixels bright enough to be judged; outside of the test's bound
+  double relative = 0, noise = 0;  // of the means of the whole pictures, and its standard error
 };
 
+/// Pixels known to no better than 10 % are the smoke's edge, met by a few samples in a thousand: their means are not
+/// yet normal, and are only part of the picture's mean.
 Difference difference(const Film& a, const Film& b, double bound) {
   Difference out;
-  double sum_a = 0, sum_b = 0;
+  double sum_a = 0, sum_b = 0, variance = 0;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
       const Color ma = a.mean(x, y), mb = b.mean(x, y), va = a.variance(x, y), vb = b.variance(x, y);
-      bool inside = true;
+      bool judged = true, inside = true;
       for (int c = 0; c < 3; ++c) {
-        sum_a += double(ma[c]), sum_b += double(mb[c]);
-        const double noise = std::sqrt(double(va[c]) + double(vb[c]));
-        inside &= std::abs(double(ma[c]) - double(mb[c])) <= bound * noise + 1e-7;
+        const double p = double(ma[c]), q = double(mb[c]), v = double(va[c]) + double(vb[c]);
+        sum_a += p, sum_b += q, variance += v;
+        judged &= std::sqrt(v) <= 0.1 * std::min(p, q);
+        inside &= std::abs(p - q) <= bound * std::sqrt(v);
       }
-      ++out.pixels;
-      out.outside += !inside;
+      out.pixels += judged;
+      out.outside += judged && !inside;
     }
   out.relative = sum_a / sum_b - 1;
+  out.noise = std::sqrt(3 * variance) / sum_b;  // the channels of a sample are correlated: at most three times as much
   return out;
 }
 
@@ -127,7 +131,7 @@ class Agreement : public testing::TestWithParam<std::pair<const char*, Node (*)(
 /// short step has a bias of its own, below 1 % of the picture; deep shadow maps of this resolution below 4 %.
 TEST_P(Agreement, EveryIntegratorMakesThePictureOfTheUnbiasedReference) {
   const auto& [name, make] = GetParam();
-  const int samples = (full() ? 4096 : 256) / kFewer;
+  const int samples = (full() ? 65536 : 2048) / kFewer;
   const Film reference = rendered(make(), "null_scattering", 2 * samples, 1);
   const double bound = sidak_z(1e-3, kWidth * kHeight * 3);
   for (const IntegratorType& type : integrator_types()) {
@@ -136,12 +140,13 @@ TEST_P(Agreement, EveryIntegratorMakesThePictureOfTheUnbiasedReference) {
     const bool march_every_step = key.starts_with("ray_march");  // a hundred times the work for a sample
     const Film film = rendered(make(), key, march_every_step ? std::max(2, samples / 16) : samples, 2);
     const Difference d = difference(film, reference, bound);
-    std::printf("%-12s %-22s %d of %d pixels outside, means differ by %+.3f %%\n", name, key.c_str(), d.outside,
-                d.pixels, 100 * d.relative);
+    std::printf("%-12s %-22s %d of %d pixels outside, means differ by %+.3f +- %.3f %%\n", name, key.c_str(), d.outside,
+                d.pixels, 100 * d.relative, 100 * d.noise);
     const bool unbiased = key.starts_with("delta_tracking");
+    if (kFewer == 1) EXPECT_GT(d.pixels, 30) << key << ": too noisy to judge";
     if (unbiased) EXPECT_LE(d.outside, 0.0025 * d.pixels) << key;
-    const double bias = key == "ray_march_cached" ? 0.04 : unbiased ? 0.005 : 0.01;
-    EXPECT_LT(std::abs(d.relative), bias * (kFewer > 1 ? 8 : 1)) << key;
+    const double bias = key == "ray_march_cached" ? 0.04 : unbiased ? 0 : 0.01;
+    EXPECT_LT(std::abs(d.relative), bias + 4 * d.noise) << key;
   }
 }
 
@@ -161,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Agreement,
                                                set(volume, "emission_color", "1,0.4,0.1");
                                                return scene;
                                              })),
-                         [](const auto& info) { return std::string(info.param.first); });
+                         [](const auto& scene) { return std::string(scene.param.first); });
 
 }  // namespace
 }  // namespace brume

@@ -399,7 +399,7 @@ Result<Node> describe(const ReferenceCase& c, const ReferenceQuantity& quantity,
   const bool has_modes = integrator->find("distance_sampling"), marches = integrator->find("step_size");
   const auto steps = {
       add_volume_of(c, scene),
-      add_light_of(c, quantity.background, scene),
+      quantity.measured == Measured::OpticalDepth ? Result<void>() : add_light_of(c, quantity.background, scene),
       has_modes ? render.set("distance_sampling", std::string(name_of(settings.distance_sampling))) : Result<void>(),
       render.set("bounces", std::int64_t{quantity.bounces}),
       render.set("sampler", std::string(settings.sampler == SamplerKind::Sobol ? "sobol" : "independent")),

@@ -16,8 +16,9 @@ constexpr double kFamilyError = 1e-3;  // right values fail one run in a thousan
 constexpr double kFloatError = 1e-5;   // relative, of a few hundred roundings of 6e-8
 constexpr double kTrackedTransmittanceError = 1e-3;
 constexpr double kSecondsPerRay = 0.4e-6;  // roughly; decides only how many samples are taken
-constexpr std::uint64_t kPilotSamples = 1 << 12, kLeastSamples = 1 << 12;
-constexpr double kMostSegments = 2000;
+constexpr std::uint64_t kPilotSamples = 1 << 12;
+constexpr double kMostSegments = 2000, kMostSegmentsSquared = 100;  // the latter where every step marches to the lights
+constexpr std::uint64_t kFirstSamples = 64;                         // tell what a sample costs
 
 /// One comparison to be made.
 struct Comparison {
@@ -151,7 +152,8 @@ void plan_scattering(Comparison& job) {
   if (!c.heterogeneous() || job.method.tracks()) return;
   const double length = reference_span(c, q.ray).length();
   job.step = length / 50;
-  while (scattering_bias(c, q.ray, job.step) > 1e-3 && job.step > length / kMostSegments) job.step *= 0.5;
+  const double most = job.method.integrator.starts_with("ray_march") ? kMostSegmentsSquared : kMostSegments;
+  while (scattering_bias(c, q.ray, job.step) > 1e-3 && job.step > length / most) job.step *= 0.5;
   job.bias = scaled(q.expected, scattering_bias(c, q.ray, job.step) * (1 + std::min(q.bounces, 100)));
 }
 
@@ -216,10 +218,13 @@ Measurement measure(const Comparison& job, double z, std::uint64_t salt, std::ui
   if (job.offsets) return judged(job, estimate(job, *probe, 1024 * more), z);
   std::uint64_t samples = options.samples.value_or(0);
   if (samples == 0) {
-    const Measurement pilot = judged(job, estimate(job, *probe, kPilotSamples), z);
-    const double needed = 1.2 * std::pow(pilot.noise / options.relative_error, 2) * static_cast<double>(kPilotSamples);
-    const double affordable = options.seconds / (kSecondsPerRay * pilot.work);
-    samples = static_cast<std::uint64_t>(std::max(std::min(needed, affordable), static_cast<double>(kLeastSamples)));
+    const double work = judged(job, estimate(job, *probe, kFirstSamples), z).work;
+    const double affordable = options.seconds / (kSecondsPerRay * work);
+    const double pilots =
+        std::clamp(affordable / 4, static_cast<double>(kFirstSamples), static_cast<double>(kPilotSamples));
+    const Measurement pilot = judged(job, estimate(job, *probe, static_cast<std::uint64_t>(pilots)), z);
+    const double needed = 1.2 * std::pow(pilot.noise / options.relative_error, 2) * pilots;
+    samples = static_cast<std::uint64_t>(std::max(std::min(needed, affordable), pilots));
   }
   settings.seed = seed_of(job, salt + 1);
   probe = ReferenceProbe::make(*job.scene, *job.quantity, settings);
@@ -295,7 +300,9 @@ Result<std::vector<ReferenceMethod>> reference_methods(const std::string& key) {
   }
   for (const IntegratorType& t : integrator_types()) {
     known.push_back(t.table.key);
-    if ((key == "all" || key == t.table.key) && t.table.key != "decoupled") methods.push_back({t.table.key});
+    // Deep shadow maps are biased by their resolution, without a stated bound: only when asked for by name.
+    const bool meant = key == t.table.key || (key == "all" && t.table.key != "ray_march_cached");
+    if (meant && t.table.key != "decoupled") methods.push_back({t.table.key});
   }
   if (methods.empty()) return bad_input("found \"" + key + "\", expected one of " + join(known));
   return methods;
@@ -310,23 +317,23 @@ std::string reference_expected_failure(const ReferenceCase& c, const ReferenceQu
                                        const ReferenceMethod& method) {
   if (q.measured == Measured::OpticalDepth || q.name == "emission") return {};
   const bool decoupled = method.integrator == "decoupled", density = method.mode == DistanceSampling::Density;
-  const bool blind = method.integrator.find("delta_tracking") == 0 || method.integrator == "stochastic_march" ||
-                     (decoupled && density);
+  const bool free_flights = method.integrator.starts_with("delta_tracking") || method.integrator == "stochastic_march";
+  const bool blind = free_flights || method.integrator.starts_with("ray_march") || (decoupled && density);
   if (blind && c.has_tag("near_singular"))
     return "distances that do not know of the light: the second moment of 1/r^2 grows as 1/D^3";
   if (decoupled && method.mode == DistanceSampling::Equiangular && c.id == "ss_hom_sphere_out_st1000")
     return "angles that do not know of the extinction: all light is scattered in a skin of 1/1000";
   if (c.has_tag("sigma_inf") && largest(extinction(c)) >= 1e6)
     return "positions are floats: a mean free path of 1e-6 is a few of their spacings";
-  if ((method.tracks() || method.integrator == "stochastic_march") && c.id.find("_st1e-06") != std::string::npos &&
-      blind)
+  if (free_flights && (c.id.find("_st1e-06") != std::string::npos || c.has_tag("sigma_zero")) &&
+      largest(extinction(c)) < 1e-3)
     return "scattering distances that are drawn for the whole way out: a medium this thin is met once in a million";
   // Light that comes through the medium from its other side.
   const bool through = q.name.find("transmit") == 0 || q.name.find("flux T") == 0 || q.name.find("T_mu") == 0 ||
                        c.id == "ss_hom_box_in_st10" || c.id == "ss_hom_box_out_st10";
   if (through && !decoupled && largest(q.expected) < 1e-4)
     return "tracking: through N mean free paths light is met about once in exp(N) samples";
-  if (through && c.light.type == "directional" && largest(q.expected) < 1e-7)
+  if (through && c.light.type == "directional" && largest(q.expected) < 2e-5)
     return "nearly all light takes paths that are drawn too rarely to be seen in the samples of a test";
   return {};
 }
