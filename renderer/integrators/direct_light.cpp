@@ -7,7 +7,6 @@
 #include "renderer/march/shadow_march.h"
 
 namespace brume {
-
 namespace {
 
 template <int C> struct LightSampling {

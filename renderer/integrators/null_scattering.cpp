@@ -42,8 +42,8 @@ template <int C> struct Leg {
 
   Color shadowed(const IncomingLight& in, Vec3 x, int index) const {
     ++context.statistics.shadow_rays;
-    return in.scattered *
-           shadow_by_tracking<C>(bounce, context)(*context.scene.lights[0], Ray{x, in.wi, {0, in.distance}}, index);
+    const Ray shadow{x, in.wi, {0, in.distance}};
+    return in.scattered * to_color(tracked_transmittance<C>(shadow, Decision::ShadowFlight, bounce, index, context));
   }
 
   float equiangular_pdf(const Light& light, const LightPoint& point, float t, Interval inside) const {

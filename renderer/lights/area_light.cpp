@@ -5,6 +5,7 @@ namespace brume {
 IncidentLight AreaLight::incident(const LightPoint& point, Vec3 x) const {
   const Vec3 to_light = point.position - x;
   const float distance = length(to_light);
+  if (!(distance > kAtTheLight)) return {{0, 0, 1}, distance, {}};
   const Vec3 wi = to_light / distance;
   const float cosine = -dot(wi, point.normal);
   const float facing = two_sided_ ? std::abs(cosine) : std::max(0.0f, cosine);

@@ -29,6 +29,9 @@ struct IncidentLight {
   float pdf_w = 0;   ///< with which sample_point() chooses this direction, per sr; 0: a single direction
 };
 
+/// Nearer to a light point than this, in world units, nothing is received: 1/r^2 has no value that a float could hold.
+inline constexpr float kAtTheLight = 1e-15f;
+
 /// A ray meeting a light.
 struct LightHit {
   float t;          ///< infinite for environments
@@ -45,7 +48,7 @@ class Light {
   /// @param u  uniform in [0,1)^2
   virtual LightPoint sample_point(Vec2 u) const = 0;
 
-  /// What `x` receives from `point`; only for Finite and Distant points. Not finite when x is the light point itself.
+  /// What `x` receives from `point`; only for Finite and Distant points.
   virtual IncidentLight incident(const LightPoint& point, Vec3 x) const = 0;
 
   /// The part of the ray that `point` can light at all (one side of a quad, the inside of a cone).

@@ -14,6 +14,7 @@ LightPoint SpotLight::sample_point(Vec2) const { return {LightPoint::Kind::Finit
 IncidentLight SpotLight::incident(const LightPoint&, Vec3 x) const {
   const Vec3 to_light = position_ - x;
   const float distance = length(to_light);
+  if (!(distance > kAtTheLight)) return {{0, 0, 1}, distance, {}};
   const Vec3 wi = to_light / distance;
   const float c = -dot(wi, axis_);
   float falloff = c > cos_outer_ ? 1.0f : 0.0f;

@@ -55,14 +55,14 @@ std::vector<ReferenceOutcome> run(const std::vector<std::string>& files, const R
 
 /// The three modes of decoupled marching where they can be held against closed forms.
 TEST(Reference, TransmittanceEmissionAndSingleScatteringWithinThreeInAThousand) {
+  const double noise = kNoiseFactor * (full() ? 1e-3 : 3e-3);
   ReferenceOptions options;
   options.methods = *reference_methods("decoupled");
-  options.relative_error = kNoiseFactor * (full() ? 1e-3 : 3e-3);
+  options.relative_error = 0.85 * noise;  // the pilot that it is planned by is noisy itself
   options.seconds = 100;
   for (const ReferenceOutcome& o :
        run({file("transmittance"), file("emission"), file("single_scatter_homogeneous")}, options))
-    if (o.expected_failure.empty())
-      EXPECT_LE(o.noise, 1.2 * options.relative_error) << "too noisy to judge: " << format_outcomes({o});
+    if (o.expected_failure.empty()) EXPECT_LE(o.noise, noise) << "too noisy to judge: " << format_outcomes({o});
 }
 
 /// A medium that absorbs nothing, in light that is the same all around, cannot be told from that light.
@@ -96,10 +96,11 @@ TEST(AllReferences, HoldForTheReferenceIntegratorAndForDecoupledMarching) {
     for (const ReferenceCase& c : cases) all.insert(c.id);
   }
   EXPECT_EQ(all.size(), 365u);
-  // Diffuse light from one side only has no light source in a scene file; the four with a property instead of a number
-  // have a test of their own.
-  const std::set<std::string> elsewhere{"ed_light_on_ray_inside", "ed_camera_at_light_inside", "ed_box_face_slide",
-                                        "ed_g1", "pub_disort_1f"};
+  // Two are about diffuse light from one side only, which has no light source in a scene file; the four with a property
+  // instead of a number have a test of their own.
+  const std::set<std::string> elsewhere{
+      "pub_disort_1c", "ed_light_on_ray_inside", "ed_camera_at_light_inside", "ed_box_face_slide",
+      "ed_g1",         "pub_disort_1f"};
   for (const std::string& id : all) EXPECT_NE(measured.contains(id), elsewhere.contains(id)) << id;
 }
 
