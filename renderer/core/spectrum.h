@@ -13,6 +13,13 @@ template <int C> struct Spectrum {
   float& operator[](int c) { return v[c]; }
 };
 
+/// The same value in every channel.
+template <int C> Spectrum<C> filled(float value) {
+  Spectrum<C> s;
+  for (float& v : s.v) v = value;
+  return s;
+}
+
 template <int C> Color to_color(const Spectrum<C>& s) {
   if constexpr (C == 1)
     return Color(s[0]);

@@ -22,8 +22,7 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
 
     // record
     const MarchSettings settings{scene.step_size, sampler.u1(Decision::MarchOffset, bounce), scene.render.time};
-    MarchRecord<C> rec = record<C>(scene.media, {scene.needs.emission, scene.needs.overlap}, ray, settings,
-                                   context.arena, context.statistics.march);
+    MarchRecord<C> rec = record_ray<C>(ray, settings, context);
     // distribute
     if (!rec.empty()) distribute(rec, beta, context.arena);
     if (bounce == 0) {

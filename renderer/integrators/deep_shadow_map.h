@@ -22,7 +22,7 @@ class DeepShadowMap {
  private:
   DeepShadowMap(const Scene& scene, const LightPoint& point, int resolution);
 
-  /// Where x lies in the map: columns and rows in [0, resolution), depth in [0, 1] of its ray's range.
+  /// Where x lies in the map: column and row in [0, resolution), distance along its ray in world units.
   struct Place {
     float u, v, distance;
   };

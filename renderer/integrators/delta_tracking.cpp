@@ -47,10 +47,11 @@ template <int C> Color trace(Ray ray, int c, SampleContext& context) {
 
 template <int C> Color trace_one_channel(const Ray& ray, SampleContext& context) {
   if (context.diagnostics) diagnose_by_tracking<C>(ray, context);
-  if constexpr (C == 1) return trace<1>(ray, 0, context);
-  const int c = std::min(static_cast<int>(3 * context.sampler.u1(Decision::Channel)), 2);
+  const int c = leading_channel<C>(context.sampler);
+  const Color all = trace<C>(ray, c, context);
+  if (C == 1) return all;
   Color only;
-  only[c] = 3 * trace<C>(ray, C == 1 ? 0 : c, context)[c];
+  only[c] = C * all[c];
   return only;
 }
 

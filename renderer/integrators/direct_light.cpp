@@ -1,10 +1,10 @@
 #include "renderer/integrators/direct_light.h"
 
-#include "renderer/integrators/incoming_light.h"
+#include "renderer/integrators/marched_path.h"
+#include "renderer/integrators/path.h"
 #include "renderer/march/density_sampling.h"
 #include "renderer/march/equiangular.h"
 #include "renderer/march/mis.h"
-#include "renderer/march/shadow_march.h"
 
 namespace brume {
 namespace {
@@ -26,12 +26,8 @@ template <int C> struct LightSampling {
     }
     if (is_black(sum)) return {};
     ++context.statistics.shadow_rays;
-    const Scene& scene = context.scene;
     const Ray shadow{ray.at(at.t), in.wi, {0, in.distance}};
-    const MarchSettings settings{scene.shadow_step_size, context.sampler.u1(Decision::ShadowOffset, bounce, index),
-                                 scene.render.time};
-    return sum *
-           to_color(shadow_transmittance<C>(scene.media, shadow, settings, context.arena, context.statistics.march));
+    return sum * to_color(marched_shadow<C>(shadow, bounce, index, context));
   }
 
   PhaseMixture<C> phase_at(const RayPoint<C>& at) const {
@@ -124,18 +120,12 @@ template <int C> struct LightSampling {
 
 template <int C>
 Color direct_light(const MarchRecord<C>& record, const Ray& ray, Color beta, int bounce, SampleContext& context) {
-  const Scene& scene = context.scene;
   const LightSampling<C> sampling{record, ray, bounce, context};
-  const int lights = static_cast<int>(scene.lights.size()), samples = scene.render.light_samples;
+  const int samples = context.scene.render.light_samples;
   Color sum;
-  if (scene.render.light_selection == LightSelection::All || lights < 2) {
-    for (int l = 0; l < lights; ++l)
-      sum += sampling.from_light(*scene.lights[static_cast<std::size_t>(l)], samples, l * samples);
-  } else {
-    const float u = context.sampler.u1(Decision::LightChoice, bounce);
-    const int chosen = std::min(static_cast<int>(u * static_cast<float>(lights)), lights - 1);
-    sum = sampling.from_light(*scene.lights[static_cast<std::size_t>(chosen)], samples, 0) * static_cast<float>(lights);
-  }
+  for_lights(bounce, 0, samples, context, [&](const Light& light, float weight, int first) {
+    sum += sampling.from_light(light, samples, first) * weight;
+  });
   return beta * sum;
 }
 

@@ -30,8 +30,7 @@ IncomingLight LightTechnique<C>::draw(const LightPoint& point, Vec3 x, Vec3 dire
   };
   if (point.kind == LightPoint::Kind::Environment) {
     const Vec3 wi = by_phase();
-    const float cos_theta = dot(direction, wi);
-    const Color weight = to_color(phase.value(cos_theta)) / phase.pdf_w(cos_theta);  // 1 for a single medium
+    const Color weight = to_color(phase.weight(dot(direction, wi)));
     return {wi, std::numeric_limits<float>::infinity(), weight * light_.environment_radiance(), point};
   }
   const float share = chance_share(x);

@@ -3,13 +3,25 @@
 #include "renderer/integrators/path.h"
 #include "renderer/integrators/scatter_direction.h"
 #include "renderer/march/distribute.h"
+#include "renderer/march/shadow_march.h"
 
 namespace brume {
 
+template <int C> MarchRecord<C> record_ray(const Ray& ray, const MarchSettings& settings, SampleContext& context) {
+  const Scene& scene = context.scene;
+  return record<C>(scene.media, {scene.needs.emission, scene.needs.overlap}, ray, settings, context.arena,
+                   context.statistics.march);
+}
+
+template <int C> Spectrum<C> marched_shadow(const Ray& shadow, int bounce, int index, SampleContext& context) {
+  const Scene& scene = context.scene;
+  const MarchSettings settings{scene.shadow_step_size, context.sampler.u1(Decision::ShadowOffset, bounce, index),
+                               scene.render.time};
+  return shadow_transmittance<C>(scene.media, shadow, settings, context.arena, context.statistics.march);
+}
+
 template <int C> Spectrum<C> transmittance_to(const MarchRecord<C>& record, float t) {
-  Spectrum<C> clear;
-  for (float& v : clear.v) v = 1;
-  if (record.empty() || t <= record.span().begin) return clear;
+  if (record.empty() || t <= record.span().begin) return filled<C>(1);
   return t >= record.span().end ? transmittance(record) : evaluate(record, t).transmittance;
 }
 
@@ -37,6 +49,10 @@ template <int C> bool scatter(const MarchRecord<C>& record, Ray& ray, Color& bet
   return !is_black(beta);
 }
 
+template MarchRecord<1> record_ray(const Ray&, const MarchSettings&, SampleContext&);
+template MarchRecord<3> record_ray(const Ray&, const MarchSettings&, SampleContext&);
+template Spectrum<1> marched_shadow(const Ray&, int, int, SampleContext&);
+template Spectrum<3> marched_shadow(const Ray&, int, int, SampleContext&);
 template Spectrum<1> transmittance_to(const MarchRecord<1>&, float);
 template Spectrum<3> transmittance_to(const MarchRecord<3>&, float);
 template void diagnose(const MarchRecord<1>&, RayDiagnostics&);

@@ -6,6 +6,13 @@
 
 namespace brume {
 
+/// First step: the ray's medium written down, with what this scene needs of it.
+template <int C> MarchRecord<C> record_ray(const Ray& ray, const MarchSettings& settings, SampleContext& context);
+
+/// Transmittance of a shadow ray, marched at the shadow step.
+/// @param index  of its light sample, for the random offset
+template <int C> Spectrum<C> marched_shadow(const Ray& shadow, int bounce, int index, SampleContext& context);
+
 /// Transmittance from the ray's origin to t, read off the record.
 template <int C> Spectrum<C> transmittance_to(const MarchRecord<C>& record, float t);
 

@@ -11,12 +11,7 @@ namespace {
 
 /// Per channel c: the measurement contribution f of the path so far, and the pdf p with which tracking led by channel c
 /// would have made it. Both lack the factors that all channels share.
-template <int C> struct Path {
-  Spectrum<C> f, p;
-  Path() {
-    for (int c = 0; c < C; ++c) f[c] = p[c] = 1;
-  }
-};
+template <int C> struct Path { Spectrum<C> f = filled<C>(1), p = filled<C>(1); };
 
 template <int C> float mean_of(const Spectrum<C>& s) {
   float sum = 0;
@@ -110,7 +105,7 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
   const Sampler& sampler = context.sampler;
   if (context.diagnostics) diagnose_by_tracking<C>(ray, context);
   Color radiance = visible_lights(scene, ray, [&](float t) { return transmittance_to<C>(ray, t, context); });
-  const int leader = C == 1 ? 0 : std::min(static_cast<int>(3 * sampler.u1(Decision::Channel)), 2);
+  const int leader = leading_channel<C>(sampler);
   Path<C> path;
   for (int bounce = 0;; ++bounce) {
     const ArenaScope scope(context.arena);
@@ -121,10 +116,9 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
     const Leg<C> leg{ray, path, bounce, context};
 
     auto collisions = track<C>(ray, Decision::Flight, bounce, 0, context);
-    Spectrum<C> n;  // product of the null collisions' probabilities
-    for (float& v : n.v) v = 1;
+    auto n = filled<C>(1);  // product of the null collisions' probabilities
     const Collision<C>* real = nullptr;
-    for (int j = 0; !real; ++j) {
+    for (int j = 0;; ++j) {
       const Collision<C>* at = collisions.next();
       const float reached = mean_of(path.p * n);
       if (!at || reached == 0) break;
@@ -133,9 +127,8 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
         real = at;
         break;
       }
-      const Collision<C> null = *at;
       for (int c = 0; c < C; ++c) {
-        n[c] *= std::max(0.0f, 1 - null.sigma_t[c] / null.majorant);
+        n[c] *= std::max(0.0f, 1 - at->sigma_t[c] / at->majorant);
         if (n[c] == 0) collisions.drop(c);
       }
     }

@@ -11,6 +11,11 @@ namespace brume {
 /// @return the factor of what survives; 0 ends the path
 float roulette(Color beta, int bounce, const SampleContext& context);
 
+/// The channel that leads a tracked path: drawn where there are several, each with the same probability.
+template <int C> int leading_channel(const Sampler& sampler) {
+  return C == 1 ? 0 : std::min(static_cast<int>(C * sampler.u1(Decision::Channel)), C - 1);
+}
+
 /// What the camera sees of the lights themselves. Lamps do not block.
 /// @param transmittance  Color(distance), of the medium in front
 template <class Transmittance>
@@ -23,22 +28,28 @@ Color visible_lights(const Scene& scene, const Ray& ray, const Transmittance& tr
   return sum;
 }
 
-/// Calls f(light, factor, index) for `samples` samples of every light, or of one that is picked, whose samples then
-/// count as often as there are lights. The factors are those of a mean over the samples.
+/// Calls f(light, weight, first) for every light, or for one that is picked, which then counts as often as there are
+/// lights; `first` is the index of its first light sample.
 /// @param place  of the point among those of its ray, for the random numbers
-template <class F>
-void for_light_samples(int bounce, int place, int samples, const SampleContext& context, const F& f) {
+template <class F> void for_lights(int bounce, int place, int samples, const SampleContext& context, const F& f) {
   const Scene& scene = context.scene;
   const int lights = static_cast<int>(scene.lights.size());
-  const bool one = scene.render.light_selection == LightSelection::One && lights > 1;
-  const float u = one ? context.sampler.u1(Decision::LightChoice, bounce, place) : 0;
-  const int chosen = std::min(static_cast<int>(u * static_cast<float>(lights)), lights - 1);
-  for (int l = one ? chosen : 0; l < (one ? chosen + 1 : lights); ++l)
-    for (int k = 0; k < samples; ++k) {
-      const int index = (place * (one ? 1 : lights) + (one ? 0 : l)) * samples + k;
-      f(*scene.lights[static_cast<std::size_t>(l)],
-        (one ? static_cast<float>(lights) : 1.0f) / static_cast<float>(samples), index);
-    }
+  if (scene.render.light_selection == LightSelection::One && lights > 1) {
+    const float u = context.sampler.u1(Decision::LightChoice, bounce, place);
+    const int chosen = std::min(static_cast<int>(u * static_cast<float>(lights)), lights - 1);
+    f(*scene.lights[static_cast<std::size_t>(chosen)], static_cast<float>(lights), place * samples);
+    return;
+  }
+  for (int l = 0; l < lights; ++l) f(*scene.lights[static_cast<std::size_t>(l)], 1.0f, (place * lights + l) * samples);
+}
+
+/// Calls f(light, factor, index) for `samples` samples of each of those lights. The factors are those of a mean over
+/// the samples.
+template <class F>
+void for_light_samples(int bounce, int place, int samples, const SampleContext& context, const F& f) {
+  for_lights(bounce, place, samples, context, [&](const Light& light, float weight, int first) {
+    for (int k = 0; k < samples; ++k) f(light, weight / static_cast<float>(samples), first + k);
+  });
 }
 
 /// Light that a point of a ray scatters once towards the ray's origin, times sigma_s: the mean over the light samples

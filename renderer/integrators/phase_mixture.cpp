@@ -18,13 +18,8 @@ template <int C> float PhaseMixture<C>::share(std::size_t m) const {
 }
 
 template <int C> Spectrum<C> PhaseMixture<C>::value(float cos_theta) const {
-  Spectrum<C> result;
-  if (single()) {
-    const float p = scene_.phases[0]->value(cos_theta);
-    for (float& v : result.v) v = p;
-    return result;
-  }
-  Spectrum<C> sum;
+  if (single()) return filled<C>(scene_.phases[0]->value(cos_theta));
+  Spectrum<C> result, sum;
   for (std::size_t m = 0; m < densities_.size(); ++m) {
     if (densities_[m] == 0) continue;
     const float p = scene_.phases[m]->value(cos_theta);
@@ -44,6 +39,14 @@ template <int C> float PhaseMixture<C>::pdf_w(float cos_theta) const {
     total += here;
   }
   return total > 0 ? sum / total : 0;
+}
+
+template <int C> Spectrum<C> PhaseMixture<C>::weight(float cos_theta) const {
+  if (single()) return filled<C>(1);
+  Spectrum<C> result = value(cos_theta);
+  const float pdf = pdf_w(cos_theta);
+  for (float& v : result.v) v = pdf > 0 ? v / pdf : 0;
+  return result;
 }
 
 template <int C> Vec3 PhaseMixture<C>::sample(Vec3 direction, float u_lobe, Vec2 u) const {

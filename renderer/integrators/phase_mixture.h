@@ -21,6 +21,9 @@ template <int C> class PhaseMixture {
   /// With which sample() draws a direction, per sr; value() itself for a single medium.
   float pdf_w(float cos_theta) const;
 
+  /// value() over pdf_w(), the weight of a sample: 1 for a single medium, whatever the direction.
+  Spectrum<C> weight(float cos_theta) const;
+
   /// Draws a medium by what it scatters, summed over the channels, then a direction by its phase function.
   /// @param direction  of travel before, unit
   Vec3 sample(Vec3 direction, float u_lobe, Vec2 u) const;

@@ -4,7 +4,6 @@
 #include "renderer/integrators/path.h"
 #include "renderer/integrators/registry.h"
 #include "renderer/march/distribute.h"
-#include "renderer/march/shadow_march.h"
 
 namespace brume {
 
@@ -16,8 +15,7 @@ template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context
     ++context.statistics.rays;
     const MarchSettings settings{scene.step_size, context.sampler.u1(Decision::MarchOffset, bounce), scene.render.time,
                                  true};
-    MarchRecord<C> rec = record<C>(scene.media, {scene.needs.emission, scene.needs.overlap}, ray, settings,
-                                   context.arena, context.statistics.march);
+    MarchRecord<C> rec = record_ray<C>(ray, settings, context);
     if (!rec.empty()) distribute(rec, beta, context.arena);
     if (bounce == 0) {
       if (context.diagnostics) diagnose(rec, *context.diagnostics);
@@ -50,13 +48,8 @@ template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context
 }
 
 Color RayMarchIntegrator::shadow(const Light&, const Ray& ray, int bounce, int index, SampleContext& context) const {
-  const Scene& scene = context.scene;
-  const MarchSettings settings{scene.shadow_step_size, context.sampler.u1(Decision::ShadowOffset, bounce, index),
-                               scene.render.time};
-  const auto march = [&]<int C>() {
-    return to_color(shadow_transmittance<C>(scene.media, ray, settings, context.arena, context.statistics.march));
-  };
-  return scene.needs.channels == 1 ? march.template operator()<1>() : march.template operator()<3>();
+  return context.scene.needs.channels == 1 ? to_color(marched_shadow<1>(ray, bounce, index, context))
+                                           : to_color(marched_shadow<3>(ray, bounce, index, context));
 }
 
 Color RayMarchIntegrator::radiance(const Ray& camera_ray, SampleContext& context) const {

@@ -41,12 +41,13 @@ ScatteredDirection<C> scatter_direction(const PhaseMixture<C>& phase, Vec3 x, Ve
   }
 
   const float cos_theta = dot(direction, out.direction);
-  float pdf = phase.pdf_w(cos_theta);
-  if (count > 0) {
-    float about_lamps = 0;
-    for (int l = 0; l < count; ++l) about_lamps += uniform_angle_pdf(axes[l], out.direction);
-    pdf = 0.5f * (pdf + about_lamps / static_cast<float>(count));
+  if (count == 0) {
+    out.weight = phase.weight(cos_theta);
+    return out;
   }
+  float about_lamps = 0;
+  for (int l = 0; l < count; ++l) about_lamps += uniform_angle_pdf(axes[l], out.direction);
+  const float pdf = 0.5f * (phase.pdf_w(cos_theta) + about_lamps / static_cast<float>(count));
   out.weight = phase.value(cos_theta);
   for (float& v : out.weight.v) v = pdf > 0 ? v / pdf : 0;
   return out;

@@ -69,15 +69,10 @@ template <int C> struct Marching {
 
   /// One shadow ray to every light, or to one of them.
   void light(Vec3 x, const PhaseMixture<C>& phase, Color value, int k) {
-    const Scene& scene = context.scene;
-    radiance +=
-        value *
-        light_at_point(x, ray.direction, phase, bounce, k, 1, context, [&](const Light&, const Ray& shadow, int index) {
-          const MarchSettings settings{scene.shadow_step_size,
-                                       context.sampler.u1(Decision::ShadowOffset, bounce, index), scene.render.time};
-          return to_color(
-              shadow_transmittance<C>(scene.media, shadow, settings, context.arena, context.statistics.march));
-        });
+    radiance += value * light_at_point(x, ray.direction, phase, bounce, k, 1, context,
+                                       [&](const Light&, const Ray& shadow, int index) {
+                                         return to_color(marched_shadow<C>(shadow, bounce, index, context));
+                                       });
   }
 
   void march() {
@@ -95,14 +90,14 @@ template <int C> struct Marching {
     const Presence presence = find_presence(scene.media, ray, context.arena);
     if (presence.empty()) return;
     int k = 0;
+    float depth = depth_of(0);
     const float end = presence.edges.back();
     for (float from = presence.edges.front(); from < end;) {
       const ArenaScope scope(context.arena);
       const float to = std::min(end, from + kChunk * scene.step_size);
       if (!(to > from)) return;
       MarchRecord<C> rec =
-          record<C>(scene.media, {scene.needs.emission, scene.needs.overlap}, {ray.origin, ray.direction, {from, to}},
-                    {scene.step_size, offset, scene.render.time}, context.arena, context.statistics.march);
+          record_ray<C>({ray.origin, ray.direction, {from, to}}, {scene.step_size, offset, scene.render.time}, context);
       from = to;
       if (rec.empty()) continue;
       distribute(rec, beta, context.arena);
@@ -110,7 +105,10 @@ template <int C> struct Marching {
       for (int c = 0; c < 3; ++c) transmittance[c] = std::exp(-before[C == 1 ? 0 : c]);
       radiance += beta * transmittance * emitted_radiance(rec);
       const float reached = before[leader] + rec.tau[static_cast<std::size_t>(leader)][rec.n];
-      for (; k < n && depth_of(k) < reached; ++k) scatter_at(rec, before, depth_of(k) - before[leader], k, chosen);
+      while (k < n && depth < reached) {
+        scatter_at(rec, before, depth - before[leader], k, chosen);
+        if (++k < n) depth = depth_of(k);
+      }
       for (int c = 0; c < C; ++c) before[c] += rec.tau[static_cast<std::size_t>(c)][rec.n];
       // Emission is collected on the whole ray, for it needs no random number.
       if (k == n && !scene.needs.emission) return;
@@ -137,9 +135,8 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
     for (int c = 0; c < 3; ++c) context.diagnostics->transmittance[c] = std::exp(-to_color(depth)[c]);
   }
   Color radiance = visible_lights(scene, ray, [&](float t) { return marched<C>(ray, t, context); });
-  Spectrum<C> p;
-  for (float& v : p.v) v = 1;
-  const int leader = C == 1 ? 0 : std::min(static_cast<int>(3 * context.sampler.u1(Decision::Channel)), 2);
+  auto p = filled<C>(1);
+  const int leader = leading_channel<C>(context.sampler);
   Color beta(1);
   for (int bounce = 0;; ++bounce) {
     const ArenaScope scope(context.arena);

@@ -123,14 +123,12 @@ template <int C>
 Spectrum<C> ratio_tracking(std::span<const Medium> media, const Majorants& majorants, const Ray& ray, float time,
                            const FlightNumbers& numbers, Arena& arena, MarchCounts& counts) {
   const ArenaScope scope(arena);
-  Spectrum<C> result;
-  for (float& v : result.v) v = 1;
+  auto result = filled<C>(1);
   TentativeCollisions<C> collisions(media, majorants, ray, time, numbers, arena, counts);
   while (const Collision<C>* c = collisions.next()) {
     int gone = 0;
-    const Collision<C> at = *c;
     for (int k = 0; k < C; ++k) {
-      result[k] *= std::max(0.0f, 1 - at.sigma_t[k] / at.majorant);
+      result[k] *= std::max(0.0f, 1 - c->sigma_t[k] / c->majorant);
       if (result[k] == 0) collisions.drop(k), ++gone;
     }
     if (gone == C) break;
