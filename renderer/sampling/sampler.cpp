@@ -25,14 +25,16 @@ std::uint32_t reverse_bits(std::uint32_t v) {
 }
 
 /// Owen scrambling of a bit-reversed number: every bit is flipped by a hash of the bits below it.
-/// Laine & Karras 2011, "Stratified Sampling for Stochastic Transparency", section 3.1; constants by Burley 2020,
-/// "Practical Hash-based Owen Scrambling", listing 3 (a permutation of 32 bits).
+/// Laine & Karras 2011, "Stratified Sampling for Stochastic Transparency", section 3.1; this hash by Vegdahl 2021,
+/// "Building a Better LK Hash". Two rounds: after one, some pairs of dimensions are correlated.
 std::uint32_t laine_karras(std::uint32_t x, std::uint32_t seed) {
-  x += seed;
-  x ^= x * 0x6c50b47cu;
-  x ^= x * 0xb82f1e52u;
-  x ^= x * 0xc7afe638u;
-  x ^= x * 0x8d22f6e6u;
+  for (int round = 0; round < 2; ++round, seed *= 0x9e3779b9u) {
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+  }
   return x;
 }
 

@@ -38,7 +38,9 @@ enum class Decision : std::uint32_t {
   CameraFlight,       // of the camera ray towards what it sees directly
   EquiangularFlight,  // up to a distance that was drawn about a light
   RealCollision,      // whether a tentative collision is real; per flight
+  MediumOrSurface,    // where a scattered ray begins
 };
+inline constexpr int kDecisionCount = static_cast<int>(Decision::MediumOrSurface) + 1;
 
 /// Random numbers of one sample of one pixel. A pure function of its arguments: no state advances, so results do not
 /// depend on the order of calls, on threads or on tiles.
