@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "renderer/core/atomic_file.h"
+#include "renderer/core/input_file.h"
 #include "renderer/film/image_io.h"
 
 namespace brume {
@@ -64,7 +65,7 @@ std::string names(const Imf::ChannelList& channels) {
   std::string text;
   for (auto channel = channels.begin(); channel != channels.end(); ++channel)
     text += (text.empty() ? "" : ", ") + std::string(channel.name());
-  return text.empty() ? "none" : detail::quoted_reason(text);
+  return text.empty() ? "none" : quoted_reason(text);
 }
 
 /// Which channels of the file become which components of a pixel. Grey is read into red, and copied afterwards: a frame
@@ -77,15 +78,14 @@ Result<Layout> choose_channels(const Imf::ChannelList& channels, const std::stri
   if (channels.findChannel("R") && channels.findChannel("G") && channels.findChannel("B"))
     layout = {{"R", &Color::r}, {"G", &Color::g}, {"B", &Color::b}};
   else if (!channels.findChannel("Y") || chroma)
-    return detail::file_error(path, "found the channels " + names(channels) + ", expected R, G, B or Y alone");
+    return file_error(path, "found the channels " + names(channels) + ", expected R, G, B or Y alone");
 
   for (const auto& [name, component] : layout) {
     const Imf::Channel& channel = channels[name];
     if (channel.type != Imf::HALF && channel.type != Imf::FLOAT)
-      return detail::file_error(path, "found whole numbers in channel " + name + ", expected 16- or 32-bit floats");
+      return file_error(path, "found whole numbers in channel " + name + ", expected 16- or 32-bit floats");
     if (channel.xSampling != 1 || channel.ySampling != 1)
-      return detail::file_error(path,
-                                "found fewer samples than pixels in channel " + name + ", expected one per pixel");
+      return file_error(path, "found fewer samples than pixels in channel " + name + ", expected one per pixel");
   }
   return layout;
 }
@@ -146,11 +146,11 @@ Result<ImageFile> decode(std::ifstream& stream, std::uintmax_t file_size, const 
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
   const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
   if (width < 1 || height < 1 || width > kMaxImagePixels / height)
-    return detail::file_error(path, "found " + std::to_string(width) + " x " + std::to_string(height) +
-                                        " pixels, expected 1 to " + std::to_string(kMaxImagePixels) + " in total");
+    return file_error(path, "found " + std::to_string(width) + " x " + std::to_string(height) +
+                                " pixels, expected 1 to " + std::to_string(kMaxImagePixels) + " in total");
   if (!size_is_plausible(header.compression(), width * height, file_size))
-    return detail::file_error(path, "this OpenEXR file is damaged: found " + std::to_string(width) + " x " +
-                                        std::to_string(height) + " pixels, more than it can hold");
+    return file_error(path, "this OpenEXR file is damaged: found " + std::to_string(width) + " x " +
+                                std::to_string(height) + " pixels, more than it can hold");
   const Result<Layout> layout = choose_channels(header.channels(), path);
   if (!layout) return layout.error();
 
@@ -176,33 +176,32 @@ Result<ImageFile> decode(std::ifstream& stream, std::uintmax_t file_size, const 
 
 Result<void> write_exr(const std::string& path, const Image& image, const ImageMetadata& metadata) {
   if (image.empty() || !is_consistent(image))
-    return detail::file_error(path, "found an image without pixels, expected at least one");
+    return file_error(path, "found an image without pixels, expected at least one");
   if (Result<void> checked = detail::check_metadata(path, metadata); !checked) return checked;
   std::string bytes;
   try {
     bytes = encode(image, metadata);
   } catch (const std::exception& exception) {
-    return detail::file_error(path, "cannot encode as OpenEXR: " + detail::quoted_reason(exception.what()),
-                              ErrorCode::Internal);
+    return file_error(path, "cannot encode as OpenEXR: " + quoted_reason(exception.what()), ErrorCode::Internal);
   }
   return write_text_atomically(path, bytes);
 }
 
 Result<ImageFile> read_exr(const std::string& path) {
-  if (const Result<void> readable = detail::check_readable(path); !readable) return readable.error();
-  if (!detail::begins_with(path, "\x76\x2f\x31\x01"))
-    return detail::file_error(path, "found another kind of file, expected an OpenEXR image");
+  if (const Result<void> readable = check_readable(path); !readable) return readable.error();
+  if (!begins_with(path, "\x76\x2f\x31\x01"))
+    return file_error(path, "found another kind of file, expected an OpenEXR image");
   try {
     std::ifstream stream(path, std::ios::binary);
     const std::uintmax_t file_size = std::filesystem::file_size(path);
     if (!attribute_lengths_fit(stream, file_size))
-      return detail::file_error(path, "this OpenEXR file is damaged or truncated: its header goes on beyond its end");
+      return file_error(path, "this OpenEXR file is damaged or truncated: its header goes on beyond its end");
     return decode(stream, file_size, path);
   } catch (const std::exception& exception) {
-    return detail::file_error(path, "this OpenEXR file is damaged, truncated or of an unknown kind: " +
-                                        detail::quoted_reason(exception.what()));
+    return file_error(
+        path, "this OpenEXR file is damaged, truncated or of an unknown kind: " + quoted_reason(exception.what()));
   } catch (...) {
-    return detail::file_error(path, "this OpenEXR file is damaged: unknown exception");
+    return file_error(path, "this OpenEXR file is damaged: unknown exception");
   }
 }
 

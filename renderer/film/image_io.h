@@ -55,21 +55,12 @@ Result<Image8File> read_png(const std::string& path);
 
 namespace detail {
 
-/// An error with the file as its source.
-Error file_error(const std::string& path, std::string message, ErrorCode code = ErrorCode::BadInput);
 /// What the writers ask of metadata before they begin.
 Result<void> check_metadata(const std::string& path, const ImageMetadata& metadata);
 /// All entries by their full names: "brume:scene", "brume:<key>".
 std::map<std::string, std::string> to_entries(const ImageMetadata& metadata);
 /// Takes one entry of a file; names without "brume:" belong to somebody else and are ignored.
 void add_entry(ImageMetadata& metadata, const std::string& name, const std::string& text);
-/// Why `path` cannot be opened for reading, or success when it is a readable ordinary file.
-Result<void> check_readable(const std::string& path);
-/// The file's first bytes are `magic`.
-bool begins_with(const std::string& path, const std::string& magic);
-/// Third-party text, which may echo bytes of a hostile file, as part of a sentence: printable, no line breaks, at most
-/// 200 bytes.
-std::string quoted_reason(const std::string& text);
 
 }  // namespace detail
 }  // namespace brume

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/core/atomic_file.h"
+#include "renderer/core/input_file.h"
 #include "renderer/film/image_io.h"
 
 // libpng reports errors by longjmp(), which must not skip a destructor. So every call into libpng stands in one of the
@@ -136,7 +137,7 @@ std::vector<png_bytep> row_pointers(std::uint8_t* bytes, std::size_t height, std
 }
 
 Error damaged(const std::string& path, const Context& context) {
-  return detail::file_error(path, "this PNG file is damaged or truncated: " + detail::quoted_reason(context.reason));
+  return file_error(path, "this PNG file is damaged or truncated: " + quoted_reason(context.reason));
 }
 
 /// Every chunk up to the last one lies within the file. libpng takes, and clears, as much memory as a damaged length
@@ -159,18 +160,18 @@ bool chunk_lengths_fit(std::ifstream& file, std::uintmax_t file_size) {
 Result<Image8File> decode(const std::string& path) {
   std::ifstream input(path, std::ios::binary);
   if (!chunk_lengths_fit(input, std::filesystem::file_size(path)))
-    return detail::file_error(path, "this PNG file is damaged or truncated: it ends too early");
+    return file_error(path, "this PNG file is damaged or truncated: it ends too early");
   Context context;
   context.input = &input;
   Reader reader(context);
-  if (!reader.info) return detail::file_error(path, "cannot start libpng", ErrorCode::Internal);
+  if (!reader.info) return file_error(path, "cannot start libpng", ErrorCode::Internal);
   if (!read_header(reader.png, reader.info, &context)) return damaged(path, context);
 
   const std::int64_t width = png_get_image_width(reader.png, reader.info);
   const std::int64_t height = png_get_image_height(reader.png, reader.info);
   if (width > kMaxImagePixels / height)
-    return detail::file_error(path, "found " + std::to_string(width) + " x " + std::to_string(height) +
-                                        " pixels, expected at most " + std::to_string(kMaxImagePixels) + " in total");
+    return file_error(path, "found " + std::to_string(width) + " x " + std::to_string(height) +
+                                " pixels, expected at most " + std::to_string(kMaxImagePixels) + " in total");
   if (!settle_layout(reader.png, reader.info)) return damaged(path, context);
 
   const int channels = png_get_channels(reader.png, reader.info);
@@ -178,7 +179,7 @@ Result<Image8File> decode(const std::string& path) {
   result.image = Image8(static_cast<int>(width), static_cast<int>(height), channels);
   if (png_get_rowbytes(reader.png, reader.info) != static_cast<std::size_t>(width * channels) ||
       !is_consistent(result.image))
-    return detail::file_error(path, "libpng offers a row of unexpected size", ErrorCode::Internal);
+    return file_error(path, "libpng offers a row of unexpected size", ErrorCode::Internal);
   std::vector<png_bytep> rows = row_pointers(result.image.bytes.data(), static_cast<std::size_t>(height),
                                              static_cast<std::size_t>(width * channels));
   if (!read_rows(reader.png, reader.info, rows.data())) return damaged(path, context);
@@ -214,8 +215,7 @@ Result<std::string> encode(const Image8& image, const ImageMetadata& metadata, c
   Writer writer(context);
   if (!writer.info ||
       !write_all(writer.png, writer.info, &context, &image, texts.data(), static_cast<int>(texts.size()), rows.data()))
-    return detail::file_error(path, "cannot encode as PNG: " + detail::quoted_reason(context.reason),
-                              ErrorCode::Internal);
+    return file_error(path, "cannot encode as PNG: " + quoted_reason(context.reason), ErrorCode::Internal);
   return bytes;
 }
 
@@ -223,26 +223,25 @@ Result<std::string> encode(const Image8& image, const ImageMetadata& metadata, c
 
 Result<void> write_png(const std::string& path, const Image8& image, const ImageMetadata& metadata) {
   if (image.empty() || !is_consistent(image))
-    return detail::file_error(path, "found an image without pixels, expected at least one");
+    return file_error(path, "found an image without pixels, expected at least one");
   if (Result<void> checked = detail::check_metadata(path, metadata); !checked) return checked;
   try {
     const Result<std::string> bytes = encode(image, metadata, path);
     if (!bytes) return bytes.error();
     return write_text_atomically(path, *bytes);
   } catch (const std::exception& exception) {
-    return detail::file_error(path, "cannot encode as PNG: " + detail::quoted_reason(exception.what()),
-                              ErrorCode::Internal);
+    return file_error(path, "cannot encode as PNG: " + quoted_reason(exception.what()), ErrorCode::Internal);
   }
 }
 
 Result<Image8File> read_png(const std::string& path) {
-  if (const Result<void> readable = detail::check_readable(path); !readable) return readable.error();
-  if (!detail::begins_with(path, "\x89PNG\r\n\x1a\n"))
-    return detail::file_error(path, "found another kind of file, expected a PNG image");
+  if (const Result<void> readable = check_readable(path); !readable) return readable.error();
+  if (!begins_with(path, "\x89PNG\r\n\x1a\n"))
+    return file_error(path, "found another kind of file, expected a PNG image");
   try {
     return decode(path);
   } catch (const std::exception& exception) {
-    return detail::file_error(path, "cannot read this PNG file: " + detail::quoted_reason(exception.what()));
+    return file_error(path, "cannot read this PNG file: " + quoted_reason(exception.what()));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <vector>
 
+#include "renderer/core/input_file.h"
 #include "renderer/film/image_io.h"
 
 namespace brume {
@@ -64,26 +65,25 @@ Color to_radiance(const unsigned char* rgbe) {
 }  // namespace
 
 Result<Image> read_hdr(const std::string& path) {
-  if (auto done = detail::check_readable(path); !done) return done.error();
+  if (auto done = check_readable(path); !done) return done.error();
   Reader in{std::ifstream(path, std::ios::binary)};
   std::string line;
   std::getline(in.file, line);
-  if (!line.starts_with("#?")) return detail::file_error(path, "found no Radiance picture, expected an .hdr file");
+  if (!line.starts_with("#?")) return file_error(path, "found no Radiance picture, expected an .hdr file");
   // Lines of the header up to an empty one, then the resolution.
   for (int lines = 0; !line.empty() && in.file && lines < 1000; ++lines) std::getline(in.file, line);
   std::getline(in.file, line);
   int width = 0, height = 0;
   if (std::sscanf(line.c_str(), "-Y %d +X %d", &height, &width) != 2 || width < 1 || height < 1)
-    return detail::file_error(
-        path, "found the resolution \"" + detail::quoted_reason(line) + "\", expected \"-Y height +X width\"");
+    return file_error(path, "found the resolution \"" + quoted_reason(line) + "\", expected \"-Y height +X width\"");
   if (static_cast<std::int64_t>(width) * height > kMaxImagePixels)
-    return detail::file_error(path, "found " + std::to_string(width) + "x" + std::to_string(height) +
-                                        " pixels, expected at most " + std::to_string(kMaxImagePixels) + " in all");
+    return file_error(path, "found " + std::to_string(width) + "x" + std::to_string(height) +
+                                " pixels, expected at most " + std::to_string(kMaxImagePixels) + " in all");
   Image picture(width, height);
   Bytes row(4 * static_cast<std::size_t>(width));
   for (int y = 0; y < height; ++y) {
     if (!read_row(in, row, width))
-      return detail::file_error(
+      return file_error(
           path, "this file is cut off or damaged in row " + std::to_string(y) + " of " + std::to_string(height));
     for (int x = 0; x < width; ++x) picture.at(x, y) = to_radiance(&row[4 * static_cast<std::size_t>(x)]);
   }

@@ -1,8 +1,8 @@
 #include "renderer/lights/environment_map.h"
 
 #include <algorithm>
-#include <filesystem>
 
+#include "renderer/core/input_file.h"
 #include "renderer/film/image_io.h"
 #include "renderer/film/radiance_hdr.h"
 
@@ -64,8 +64,7 @@ EnvironmentMap::EnvironmentMap(Image picture) : picture_(std::move(picture)) {
 }
 
 Result<std::shared_ptr<const EnvironmentMap>> EnvironmentMap::read(const std::string& path) {
-  std::string kind = std::filesystem::path(path).extension().string();
-  for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string kind = lower_case_extension(path);
   Image picture;
   if (kind == ".exr") {
     auto file = read_exr(path);
@@ -76,7 +75,7 @@ Result<std::shared_ptr<const EnvironmentMap>> EnvironmentMap::read(const std::st
     if (!file) return file.error();
     picture = std::move(*file);
   } else {
-    return detail::file_error(path, "found the extension \"" + kind + "\", expected a picture in .exr or .hdr");
+    return file_error(path, "found the extension \"" + kind + "\", expected a picture in .exr or .hdr");
   }
   return std::make_shared<const EnvironmentMap>(std::move(picture));
 }
