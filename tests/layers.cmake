@@ -22,6 +22,7 @@ set(same_floor_exceptions "scene_io->scene" "analysis->film")
 set(fences
   "openvdb/"   "^renderer/media/vdb_file\\.cpp$"
   "embree"     "^renderer/geometry/[^/]+\\.cpp$"
+  "tiny_obj"   "^renderer/geometry/mesh_file\\.cpp$"
   "nanovdb/"   "^renderer/media/.*\\.cpp$"
   "nlohmann/"  "^(renderer/scene_io/.*\\.cpp|app/cli/.*\\.cpp|renderer/(.*/)?[^/]*json[^/]*\\.cpp)$")
 

@@ -78,7 +78,7 @@ Result<SceneInfo> examine_scene(const std::string& file, const LoadedScene& load
   for (const Node& volume : loaded.description.list("volumes")) {
     Bounds3 bounds;
     if (volume.flag("enabled"))
-      if (const auto made = make_volume(volume, {}, cache.grids, {})) bounds = made->bounds;
+      if (const auto made = make_volume(volume, {}, cache, {})) bounds = made->bounds;
     info.volume_bounds.push_back(bounds);
   }
   return info;

@@ -37,6 +37,12 @@ inline Error bad_input(std::string message, ErrorSource source = {}) {
   return {ErrorCode::BadInput, std::move(message), std::move(source)};
 }
 
+/// The error with its key below another: "bounds" and "file" are "bounds.file".
+inline Error under(const std::string& key, Error error) {
+  error.source.key = error.source.key.empty() ? key : key + "." + error.source.key;
+  return error;
+}
+
 /// A value or the reason why there is none.
 template <class T> class [[nodiscard]] Result {
  public:

@@ -27,6 +27,13 @@ template <int C> Color to_color(const Spectrum<C>& s) {
     return {s[0], s[1], s[2]};
 }
 
+/// @param color  grey where C is 1
+template <int C> Spectrum<C> from_color(Color color) {
+  Spectrum<C> s;
+  for (int c = 0; c < C; ++c) s[c] = color[c];
+  return s;
+}
+
 /// Weights of the channels in a density that serves them all: proportional to the throughput, summing to 1.
 template <int C> Spectrum<C> channel_weights(Color throughput) {
   Spectrum<C> w;

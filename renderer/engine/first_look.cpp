@@ -104,7 +104,7 @@ Result<FirstLook> first_look(const std::string& path, SceneCache& cache, const L
 
   // Framed from the front, a little from above.
   Node& camera = scene.child("camera");
-  auto made = make_volume(volume, {}, cache.grids, options);
+  auto made = make_volume(volume, {}, cache, options);
   if (!made) return made.error();
   must(camera.set("look_at", Numbers{0, 0, 0}));
   must(camera.set("position", Numbers{0.25, -1, 0.2}));

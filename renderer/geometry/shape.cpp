@@ -1,5 +1,8 @@
 #include "renderer/geometry/shape.h"
 
+#include "renderer/geometry/ray_scene.h"
+#include "renderer/geometry/sphere_roots.h"
+
 namespace brume {
 namespace {
 
@@ -32,13 +35,32 @@ std::span<const Interval> BoxShape::intervals(const Ray& ray, Arena& arena) cons
 }
 
 std::span<const Interval> SphereShape::intervals(const Ray& ray, Arena& arena) const {
-  const Vec3d d(ray.direction), to_center = center_ - Vec3d(ray.origin);
-  const double dd = dot(d, d), middle = dot(to_center, d) / dd;
-  // Distance of the centre from the line by vector rejection; the textbook discriminant cancels for far spheres.
-  const double remaining = radius_ * radius_ - length_squared(to_center - d * middle);
-  if (!(remaining > 0)) return {};
-  const double half = std::sqrt(remaining / dd);
-  return clipped(middle - half, middle + half, ray, arena);
+  const auto roots = sphere_roots(center_, radius_, ray);
+  return roots ? clipped(roots->enter, roots->leave, ray, arena) : std::span<const Interval>{};
+}
+
+std::span<const Interval> MeshShape::intervals(const Ray& ray, Arena& arena) const {
+  // To the very end, whatever the span: how often the surface winds round the ray's begin is how much oftener the ray
+  // comes out than goes in.
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const auto crossings = mesh_->rays->crossings({ray.origin, ray.direction, {ray.span.begin, kInfinity}}, arena);
+  if (crossings.empty()) return {};
+  int winding = 0;
+  for (const MeshCrossing& c : crossings) winding += c.entering ? -1 : 1;
+  // A ray that grazes an edge may be hit there but once, so a begin outside the box is outside.
+  const Vec3d begin(ray.at(ray.span.begin));
+  if (min(begin, bounds_.low) != bounds_.low || max(begin, bounds_.high) != bounds_.high) winding = 0;
+
+  const auto out = arena.alloc_span<Interval>(crossings.size());
+  std::size_t count = 0;
+  float from = ray.span.begin;
+  for (const MeshCrossing& c : crossings) {
+    if (winding > 0)
+      if (const Interval part{from, std::min(c.t, ray.span.end)}; !part.empty()) out[count++] = part;
+    winding += c.entering ? 1 : -1;
+    from = c.t;
+  }
+  return out.first(count);
 }
 
 }  // namespace brume

@@ -7,6 +7,7 @@
 #include "renderer/core/arena.h"
 #include "renderer/core/bounds.h"
 #include "renderer/core/ray.h"
+#include "renderer/geometry/mesh.h"
 
 namespace brume {
 
@@ -41,6 +42,19 @@ class SphereShape final : public Shape {
  private:
   Vec3d center_;
   double radius_;
+};
+
+/// The inside of a closed mesh: where the surface winds round a point more often outward than inward.
+class MeshShape final : public Shape {
+ public:
+  /// @param mesh  without open edges
+  explicit MeshShape(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)), bounds_(mesh_->triangles.bounds()) {}
+  std::span<const Interval> intervals(const Ray& ray, Arena& arena) const override;
+  Bounds3 bounds() const override { return bounds_; }
+
+ private:
+  std::shared_ptr<const Mesh> mesh_;
+  Bounds3 bounds_;
 };
 
 }  // namespace brume

@@ -28,22 +28,50 @@ const ParamTable& sphere_table() {
   return table;
 }
 
+const ParamTable& mesh_table() {
+  static const ParamTable table{
+      "mesh", "Mesh", "The inside of a closed mesh, before the volume's transform.", {mesh_file_param()}, {}};
+  return table;
+}
+
 }  // namespace
 
+Param mesh_file_param() {
+  return param::file("file", "Mesh").must_be_given().says("A Wavefront (.obj) or Stanford (.ply) file.");
+}
+
+Result<std::shared_ptr<const Mesh>> load_mesh(const Node& node, FileCache<Mesh>& meshes) {
+  const std::string& file = node.text("file");
+  if (file.empty()) return bad_input("found no file name, expected a mesh in .obj or .ply", {"", 0, 0, "file"});
+  auto mesh = meshes.load(file, Mesh::read);
+  if (!mesh) return under("file", mesh.error());
+  return mesh;
+}
+
 const Family& shape_family() {
-  static const Family family{"shape", "type", {&box_table(), &sphere_table()}};
+  static const Family family{"shape", "type", {&box_table(), &sphere_table(), &mesh_table()}};
   return family;
 }
 
-Result<std::unique_ptr<const Shape>> make_shape(const Node& node) {
+Result<std::shared_ptr<const Shape>> make_shape(const Node& node, FileCache<Mesh>& meshes) {
+  using Made = std::shared_ptr<const Shape>;
   if (&node.table() == &sphere_table())
-    return std::unique_ptr<const Shape>(std::make_unique<SphereShape>(node.vec3("center"), node.number("radius")));
+    return Made(std::make_shared<SphereShape>(node.vec3("center"), node.number("radius")));
+  if (&node.table() == &mesh_table()) {
+    const auto mesh = load_mesh(node, meshes);
+    if (!mesh) return mesh.error();
+    if (const std::size_t open = (*mesh)->open_edges; open > 0)
+      return bad_input("found " + std::to_string(open) + " open edges in " + node.text("file") +
+                           ", expected a closed mesh, which has an inside",
+                       {"", 0, 0, "file"});
+    return Made(std::make_shared<MeshShape>(*mesh));
+  }
   const Vec3d low = node.vec3("min"), high = node.vec3("max");
   if (!(low.x < high.x && low.y < high.y && low.z < high.z))
     return bad_input("found max " + format_value(node.value("max")) + ", expected every component above min " +
                          format_value(node.value("min")),
                      {"", 0, 0, "max"});
-  return std::unique_ptr<const Shape>(std::make_unique<BoxShape>(low, high));
+  return Made(std::make_shared<BoxShape>(low, high));
 }
 
 }  // namespace brume

@@ -20,6 +20,8 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
     const ArenaScope scope(context.arena);
     ++context.statistics.rays;
 
+    const std::optional<SurfaceHit> surface = close(ray, scene);
+
     // record
     const MarchSettings settings{scene.step_size, sampler.u1(Decision::MarchOffset, bounce), scene.render.time};
     MarchRecord<C> rec = record_ray<C>(ray, settings, context);
@@ -28,18 +30,19 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
     if (bounce == 0) {
       if (context.diagnostics) diagnose(rec, *context.diagnostics);
       // Scattered rays add no light that they meet: the light samples at every bounce have counted it all.
-      radiance = visible_lights(scene, ray, [&](float t) { return to_color(transmittance_to(rec, t)); });
+      radiance = visible_lights(scene, ray, surface, [&](float t) { return to_color(transmittance_to(rec, t)); });
     }
-    if (rec.empty()) return radiance;
 
     // estimate
-    radiance += beta * emitted_radiance(rec);
-    if (!(rec.scattered() > 0)) return radiance;
-    radiance += direct_light(rec, ray, beta, bounce, context);
+    if (!rec.empty()) {
+      radiance += beta * emitted_radiance(rec);
+      if (rec.scattered() > 0) radiance += direct_light(rec, ray, beta, bounce, context);
+    }
+    if (surface) radiance += beta * marched_reflection(rec, *surface, bounce, 1, context);
 
     // bounce
     if (bounce == scene.render.bounces) return radiance;
-    if (!scatter(rec, ray, beta, bounce, context)) return radiance;
+    if (!scatter(rec, surface, ray, beta, bounce, context)) return radiance;
   }
 }
 

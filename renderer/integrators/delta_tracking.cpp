@@ -12,7 +12,9 @@ namespace {
 template <int C> Color trace(Ray ray, int c, SampleContext& context) {
   const Scene& scene = context.scene;
   const Sampler& sampler = context.sampler;
-  Color radiance = visible_lights(scene, ray, [&](float t) { return transmittance_to<C>(ray, t, context); });
+  std::optional<SurfaceHit> surface = close(ray, scene);
+  if (context.diagnostics) diagnose_by_tracking<C>(ray, context);
+  Color radiance = visible_lights(scene, ray, surface, [&](float t) { return transmittance_to<C>(ray, t, context); });
   float beta = 1;
   for (int bounce = 0;; ++bounce) {
     const ArenaScope scope(context.arena);
@@ -23,30 +25,38 @@ template <int C> Color trace(Ray ray, int c, SampleContext& context) {
     const Collision<C>* real = nullptr;
     for (int j = 0; !real; ++j) {
       const Collision<C>* at = collisions.next();
-      if (!at) return radiance;
+      if (!at) break;
       // Emission by the collision estimator: 1 / majorant at every tentative collision.
       radiance += at->emission * (beta / at->majorant);
       if (sampler.u1(Decision::RealCollision, bounce, j) * at->majorant < at->sigma_t[c]) real = at;
     }
-    beta *= real->sigma_s[c] / real->sigma_t[c];
-    if (beta == 0) return radiance;
-
-    const Vec3 x = ray.at(real->t);
-    const PhaseMixture<C> phase(scene, real->densities);
-    radiance += beta * light_at_point(x, ray.direction, phase, bounce, 0, scene.render.light_samples, context,
-                                      shadow_by_tracking<C>(bounce, context));
-
-    if (bounce == scene.render.bounces) return radiance;
-    const auto scattered = scatter_direction(phase, x, ray.direction, bounce, context);
-    beta *= scattered.weight[c];
-    beta *= roulette(Color(beta), bounce, context);
-    if (beta == 0) return radiance;
-    ray = {x, scattered.direction};
+    const auto shadow = shadow_by_tracking<C>(bounce, context);
+    // Goes on from x; false when the path ends.
+    const auto turn = [&](Vec3 x, const auto& scatterer) {
+      if (bounce == scene.render.bounces) return false;
+      const auto scattered = scatter_direction<C>(scatterer, x, bounce, context);
+      beta *= scattered.weight[c];
+      beta *= roulette(Color(beta), bounce, context);
+      ray = {x, scattered.direction};
+      return beta != 0;
+    };
+    if (real) {
+      beta *= real->sigma_s[c] / real->sigma_t[c];
+      if (beta == 0) return radiance;
+      const Vec3 x = ray.at(real->t);
+      const PhaseMixture<C> phase(scene, ray.direction, real->densities);
+      radiance += beta * light_at_point<C>(x, phase, bounce, 0, scene.render.light_samples, context, shadow);
+      if (!turn(x, phase)) return radiance;
+    } else {
+      if (!surface) return radiance;
+      radiance += beta * light_at_surface<C>(*surface, bounce, 0, context, shadow);
+      if (!turn(surface->position, DiffuseReflection<C>(surface->normal, surface->albedo))) return radiance;
+    }
+    surface = close(ray, scene);
   }
 }
 
 template <int C> Color trace_one_channel(const Ray& ray, SampleContext& context) {
-  if (context.diagnostics) diagnose_by_tracking<C>(ray, context);
   const int c = leading_channel<C>(context.sampler);
   const Color all = trace<C>(ray, c, context);
   if (C == 1) return all;

@@ -31,7 +31,7 @@ template <int C> struct LightSampling {
   }
 
   PhaseMixture<C> phase_at(const RayPoint<C>& at) const {
-    return PhaseMixture<C>(context.scene, record, at.segment, context.arena);
+    return PhaseMixture<C>(context.scene, ray.direction, record, at.segment, context.arena);
   }
 
   /// The part of the record that a point of the light can reach.
@@ -49,7 +49,7 @@ template <int C> struct LightSampling {
     const float pdf = density.pdf(at);
     if (!(pdf > 0)) return {};
     const LightTechnique<C> technique(light, context, bounce, index);
-    const IncomingLight in = technique.draw(point, ray.at(at.t), ray.direction, phase_at(at));
+    const IncomingLight in = technique.draw(point, ray.at(at.t), phase_at(at));
     if (is_black(in.scattered)) return {};
     float weight = 1;
     if (combined) {
@@ -67,7 +67,7 @@ template <int C> struct LightSampling {
     if (!(drawn.pdf_t > 0)) return {};
     const RayPoint<C> at = evaluate(record, drawn.t);
     const LightTechnique<C> technique(light, context, bounce, index);
-    const IncomingLight in = technique.towards(point, ray.at(at.t), ray.direction, phase_at(at));
+    const IncomingLight in = technique.towards(point, ray.at(at.t), phase_at(at));
     if (is_black(in.scattered)) return {};
     const float weight =
         combined ? mis_weight(context.scene.render.mis_heuristic, drawn.pdf_t, density.pdf(at) * in.pdf_ratio) : 1;

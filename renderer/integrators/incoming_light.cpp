@@ -2,52 +2,68 @@
 
 namespace brume {
 
-/// Share of the directions at x that are drawn by the phase function.
-template <int C> float LightTechnique<C>::chance_share(Vec3 x) const {
-  return light_.solid_angle(x) * context_.scene.phase_peak > 1 ? 0.5f : 0.0f;
+/// Share of the directions at x that are drawn by the scatterer.
+template <int C> float LightTechnique<C>::chance_share(Vec3 x, float peak) const {
+  return light_.solid_angle(x) * peak > 1 ? 0.5f : 0.0f;
+}
+
+/// Blackens what a surface keeps away.
+template <int C> void LightTechnique<C>::hide(IncomingLight& in, Vec3 x) const {
+  const auto& surfaces = context_.scene.surfaces;
+  if (surfaces && !is_black(in.scattered) && surfaces->occluded({x, in.wi, {0, in.distance * kJustBefore}}))
+    in.scattered = {};
 }
 
 template <int C>
-IncomingLight LightTechnique<C>::towards(const LightPoint& point, Vec3 x, Vec3 direction,
-                                         const PhaseMixture<C>& phase) const {
+template <Scatterer<C> S>
+IncomingLight LightTechnique<C>::towards(const LightPoint& point, Vec3 x, const S& scatterer) const {
   const IncidentLight incident = light_.incident(point, x);
   IncomingLight in{incident.wi, incident.distance, {}, point};
   if (is_black(incident.irradiance)) return in;
-  const float cos_theta = dot(direction, incident.wi);
-  in.scattered = to_color(phase.value(cos_theta)) * incident.irradiance;
-  const float share = chance_share(x);
-  if (share > 0 && incident.pdf_w > 0) in.pdf_ratio = (1 - share) + share * phase.pdf_w(cos_theta) / incident.pdf_w;
+  in.scattered = to_color(scatterer.value(in.wi)) * incident.irradiance;
+  const float share = chance_share(x, scatterer.peak());
+  if (share > 0 && incident.pdf_w > 0) in.pdf_ratio = (1 - share) + share * scatterer.pdf_w(in.wi) / incident.pdf_w;
+  hide(in, x);
   return in;
 }
 
 template <int C>
-IncomingLight LightTechnique<C>::draw(const LightPoint& point, Vec3 x, Vec3 direction,
-                                      const PhaseMixture<C>& phase) const {
+template <Scatterer<C> S>
+IncomingLight LightTechnique<C>::draw(const LightPoint& point, Vec3 x, const S& scatterer) const {
   const Sampler& sampler = context_.sampler;
-  const auto by_phase = [&] {
-    return phase.sample(direction, sampler.u1(Decision::PhaseLobe, bounce_, index_),
-                        sampler.u2(Decision::PhaseDirection, bounce_, index_));
+  const auto by_chance = [&] {
+    return scatterer.sample(sampler.u1(Decision::PhaseLobe, bounce_, index_),
+                            sampler.u2(Decision::PhaseDirection, bounce_, index_));
   };
   if (point.kind == LightPoint::Kind::Environment) {
-    const Vec3 wi = by_phase();
-    const Color weight = to_color(phase.weight(dot(direction, wi)));
-    return {wi, std::numeric_limits<float>::infinity(), weight * light_.environment_radiance(), point};
+    const Vec3 wi = by_chance();
+    const Color weight = to_color(scatterer.weight(wi));
+    IncomingLight in{wi, std::numeric_limits<float>::infinity(), weight * light_.environment_radiance(), point};
+    hide(in, x);
+    return in;
   }
-  const float share = chance_share(x);
+  const float share = chance_share(x, scatterer.peak());
   if (share == 0 || sampler.u1(Decision::LightByChance, bounce_, index_) >= share) {
-    IncomingLight in = towards(point, x, direction, phase);
+    IncomingLight in = towards(point, x, scatterer);
     in.scattered *= 1 / in.pdf_ratio;
     return in;
   }
-  const Vec3 wi = by_phase();
+  const Vec3 wi = by_chance();
   const auto hit = light_.hit({x, wi});
   if (!hit || !(hit->pdf_w > 0)) return {wi, 0, {}, {}};
-  const float cos_theta = dot(direction, wi);
-  const float pdf = (1 - share) * hit->pdf_w + share * phase.pdf_w(cos_theta);
-  return {wi, hit->t, to_color(phase.value(cos_theta)) * hit->radiance / pdf, hit->point, pdf / hit->pdf_w};
+  const float pdf = (1 - share) * hit->pdf_w + share * scatterer.pdf_w(wi);
+  IncomingLight in{wi, hit->t, to_color(scatterer.value(wi)) * hit->radiance / pdf, hit->point, pdf / hit->pdf_w};
+  hide(in, x);
+  return in;
 }
 
 template class LightTechnique<1>;
 template class LightTechnique<3>;
+template IncomingLight LightTechnique<1>::draw(const LightPoint&, Vec3, const PhaseMixture<1>&) const;
+template IncomingLight LightTechnique<3>::draw(const LightPoint&, Vec3, const PhaseMixture<3>&) const;
+template IncomingLight LightTechnique<1>::draw(const LightPoint&, Vec3, const DiffuseReflection<1>&) const;
+template IncomingLight LightTechnique<3>::draw(const LightPoint&, Vec3, const DiffuseReflection<3>&) const;
+template IncomingLight LightTechnique<1>::towards(const LightPoint&, Vec3, const PhaseMixture<1>&) const;
+template IncomingLight LightTechnique<3>::towards(const LightPoint&, Vec3, const PhaseMixture<3>&) const;
 
 }  // namespace brume

@@ -16,13 +16,22 @@ template <int C> Spectrum<C> marched_shadow(const Ray& shadow, int bounce, int i
 /// Transmittance from the ray's origin to t, read off the record.
 template <int C> Spectrum<C> transmittance_to(const MarchRecord<C>& record, float t);
 
+/// Light that the surface behind the record sends through it to the ray's origin, with marched shadow rays.
+/// @param place  see for_lights()
+template <int C>
+Color marched_reflection(const MarchRecord<C>& record, const SurfaceHit& surface, int bounce, int place,
+                         SampleContext& context);
+
 /// What probes and the medium's diagnosis want to know.
 template <int C> void diagnose(const MarchRecord<C>& record, RayDiagnostics& out);
 
-/// Draws where and in which direction the path goes on: a distance by density sampling, a direction by
+/// Draws where the path goes on and in which direction: in the medium, at a distance by density sampling, or at the
+/// surface that closes the ray, each as often as it has a share in what it sends back; the direction by
 /// scatter_direction(). Replaces the ray and multiplies beta.
-/// @param record  distributed, with scattered() > 0
+/// @param record  distributed where it is not empty
 /// @return false when the path ends
-template <int C> bool scatter(const MarchRecord<C>& record, Ray& ray, Color& beta, int bounce, SampleContext& context);
+template <int C>
+bool scatter(const MarchRecord<C>& record, const std::optional<SurfaceHit>& surface, Ray& ray, Color& beta, int bounce,
+             SampleContext& context);
 
 }  // namespace brume

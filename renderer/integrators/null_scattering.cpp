@@ -50,7 +50,7 @@ template <int C> struct Leg {
   /// Light samples at the real collision that tracking has come to.
   Color at_collision(const Collision<C>& at, const Spectrum<C>& n, Interval inside) const {
     const Vec3 x = ray.at(at.t);
-    const PhaseMixture<C> phase(context.scene, at.densities);
+    const PhaseMixture<C> phase(context.scene, ray.direction, at.densities);
     const float tracked = tracked_pdf(n, at.sigma_t);
     const Color value = to_color(path.f * n * at.sigma_s) / tracked;
     if (is_black(value)) return {};
@@ -58,8 +58,7 @@ template <int C> struct Leg {
     for_light_samples(
         bounce, 0, context.scene.render.light_samples, context, [&](const Light& light, float factor, int index) {
           const LightPoint point = light.sample_point(context.sampler.u2(Decision::LightPoint, bounce, index));
-          const IncomingLight in =
-              LightTechnique<C>(light, context, bounce, index).draw(point, x, ray.direction, phase);
+          const IncomingLight in = LightTechnique<C>(light, context, bounce, index).draw(point, x, phase);
           if (is_black(in.scattered)) return;
           const float mine = tracked * in.pdf_ratio;
           const float other = mean_of(path.p) * equiangular_pdf(light, in.point, at.t, inside);
@@ -85,10 +84,9 @@ template <int C> struct Leg {
           const Collision<C> at = collision_at<C>(context.scene.media, ray, drawn.t, context.scene.render.time,
                                                   context.arena, context.statistics.march);
           const Vec3 x = ray.at(drawn.t);
-          const PhaseMixture<C> phase(context.scene, at.densities);
+          const PhaseMixture<C> phase(context.scene, ray.direction, at.densities);
           if (mean_of(at.sigma_s) == 0) return;
-          const IncomingLight in =
-              LightTechnique<C>(light, context, bounce, index).towards(point, x, ray.direction, phase);
+          const IncomingLight in = LightTechnique<C>(light, context, bounce, index).towards(point, x, phase);
           if (is_black(in.scattered)) return;
           const Spectrum<C> n = tracked_transmittance<C>({ray.origin, ray.direction, {ray.span.begin, drawn.t}},
                                                          Decision::EquiangularFlight, bounce, index, context);
@@ -103,16 +101,16 @@ template <int C> struct Leg {
 template <int C> Color trace(Ray ray, SampleContext& context) {
   const Scene& scene = context.scene;
   const Sampler& sampler = context.sampler;
+  std::optional<SurfaceHit> surface = close(ray, scene);
   if (context.diagnostics) diagnose_by_tracking<C>(ray, context);
-  Color radiance = visible_lights(scene, ray, [&](float t) { return transmittance_to<C>(ray, t, context); });
+  Color radiance = visible_lights(scene, ray, surface, [&](float t) { return transmittance_to<C>(ray, t, context); });
   const int leader = leading_channel<C>(sampler);
   Path<C> path;
   for (int bounce = 0;; ++bounce) {
     const ArenaScope scope(context.arena);
     ++context.statistics.rays;
     const Presence presence = find_presence(scene.media, ray, context.arena);
-    if (presence.empty()) return radiance;
-    const Interval inside{presence.edges.front(), presence.edges.back()};
+    const Interval inside = presence.empty() ? Interval{} : Interval{presence.edges.front(), presence.edges.back()};
     const Leg<C> leg{ray, path, bounce, context};
 
     auto collisions = track<C>(ray, Decision::Flight, bounce, 0, context);
@@ -132,23 +130,36 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
         if (n[c] == 0) collisions.drop(c);
       }
     }
-    if (scene.needs.equiangular) radiance += leg.about_lights(inside);
-    if (!real) return radiance;
-    radiance += leg.at_collision(*real, n, inside);
+    if (scene.needs.equiangular && !inside.empty()) radiance += leg.about_lights(inside);
 
-    if (bounce == scene.render.bounces) return radiance;
-    const Vec3 x = ray.at(real->t);
-    const PhaseMixture<C> phase(scene, real->densities);
-    const auto scattered = scatter_direction(phase, x, ray.direction, bounce, context);
-    path.f = path.f * n * real->sigma_s * scattered.weight;
-    path.p = path.p * n * real->sigma_t;
-    const float pdf = mean_of(path.p);
-    if (!(pdf > 0)) return radiance;
-    for (int c = 0; c < C; ++c) path.f[c] /= pdf, path.p[c] /= pdf;
-    const float survivors = roulette(to_color(path.f), bounce, context);
-    for (float& v : path.f.v) v *= survivors;
-    if (is_black(to_color(path.f))) return radiance;
-    ray = {x, scattered.direction};
+    // Goes on from x; false when the path ends.
+    const auto turn = [&](Vec3 x, const auto& scatterer) {
+      if (bounce == scene.render.bounces) return false;
+      const auto scattered = scatter_direction<C>(scatterer, x, bounce, context);
+      path.f = path.f * scattered.weight;
+      const float pdf = mean_of(path.p);
+      if (!(pdf > 0)) return false;
+      for (int c = 0; c < C; ++c) path.f[c] /= pdf, path.p[c] /= pdf;
+      const float survivors = roulette(to_color(path.f), bounce, context);
+      for (float& v : path.f.v) v *= survivors;
+      ray = {x, scattered.direction};
+      return !is_black(to_color(path.f));
+    };
+    if (real) {
+      radiance += leg.at_collision(*real, n, inside);
+      path.f = path.f * n * real->sigma_s;
+      path.p = path.p * n * real->sigma_t;
+      const PhaseMixture<C> phase(scene, ray.direction, real->densities);
+      if (!turn(ray.at(real->t), phase)) return radiance;
+    } else {
+      if (!surface || mean_of(path.p * n) == 0) return radiance;
+      path.f = path.f * n;
+      path.p = path.p * n;
+      radiance += to_color(path.f) / mean_of(path.p) *
+                  light_at_surface<C>(*surface, bounce, 2, context, shadow_by_tracking<C>(bounce, context));
+      if (!turn(surface->position, DiffuseReflection<C>(surface->normal, surface->albedo))) return radiance;
+    }
+    surface = close(ray, scene);
   }
 }
 

@@ -16,15 +16,25 @@ template <int C> int leading_channel(const Sampler& sampler) {
   return C == 1 ? 0 : std::min(static_cast<int>(C * sampler.u1(Decision::Channel)), C - 1);
 }
 
-/// What the camera sees of the lights themselves. Lamps do not block.
-/// @param transmittance  Color(distance), of the medium in front
+/// The surface that closes the ray, which from then on ends there; nothing where there is none.
+inline std::optional<SurfaceHit> close(Ray& ray, const Scene& scene) {
+  if (!scene.surfaces) return std::nullopt;
+  const auto surface = scene.surfaces->intersect(ray);
+  if (surface) ray.span.end = surface->t;
+  return surface;
+}
+
+/// What the camera sees of the lights themselves, and of a surface that glows. Lamps do not block.
+/// @param ray  closed by `surface`.  @param transmittance  Color(distance), of the medium in front
 template <class Transmittance>
-Color visible_lights(const Scene& scene, const Ray& ray, const Transmittance& transmittance) {
+Color visible_lights(const Scene& scene, const Ray& ray, const std::optional<SurfaceHit>& surface,
+                     const Transmittance& transmittance) {
   Color sum;
   for (const auto& light : scene.lights) {
     if (!light->visible_to_camera) continue;
     if (const auto hit = light->hit(ray)) sum += hit->radiance * transmittance(hit->t);
   }
+  if (surface && !is_black(surface->emitted)) sum += surface->emitted * transmittance(surface->t);
   return sum;
 }
 
@@ -52,21 +62,30 @@ void for_light_samples(int bounce, int place, int samples, const SampleContext& 
   });
 }
 
-/// Light that a point of a ray scatters once towards the ray's origin, times sigma_s: the mean over the light samples
-/// of phase * L * transmittance.
+/// Light that a vertex of a path scatters once towards where the path comes from: the mean over the light samples of
+/// value * L * transmittance.
 /// @param transmittance  Color(light, shadow ray, index)
-template <int C, class Transmittance>
-Color light_at_point(Vec3 x, Vec3 direction, const PhaseMixture<C>& phase, int bounce, int place, int samples,
-                     SampleContext& context, const Transmittance& transmittance) {
+template <int C, Scatterer<C> S, class Transmittance>
+Color light_at_point(Vec3 x, const S& scatterer, int bounce, int place, int samples, SampleContext& context,
+                     const Transmittance& transmittance) {
   Color sum;
   for_light_samples(bounce, place, samples, context, [&](const Light& light, float factor, int index) {
     const LightPoint point = light.sample_point(context.sampler.u2(Decision::LightPoint, bounce, index));
-    const IncomingLight in = LightTechnique<C>(light, context, bounce, index).draw(point, x, direction, phase);
+    const IncomingLight in = LightTechnique<C>(light, context, bounce, index).draw(point, x, scatterer);
     if (is_black(in.scattered)) return;
     ++context.statistics.shadow_rays;
     sum += in.scattered * transmittance(light, Ray{x, in.wi, {0, in.distance}}, index) * factor;
   });
   return sum;
+}
+
+/// The same for the surface that closes a ray.
+template <int C, class Transmittance>
+Color light_at_surface(const SurfaceHit& surface, int bounce, int place, SampleContext& context,
+                       const Transmittance& transmittance) {
+  if (is_black(surface.albedo)) return {};
+  return light_at_point<C>(surface.position, DiffuseReflection<C>(surface.normal, surface.albedo), bounce, place,
+                           context.scene.render.light_samples, context, transmittance);
 }
 
 }  // namespace brume

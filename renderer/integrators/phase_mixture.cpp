@@ -3,8 +3,9 @@
 namespace brume {
 
 template <int C>
-PhaseMixture<C>::PhaseMixture(const Scene& scene, const MarchRecord<C>& record, int segment, Arena& arena)
-    : scene_(scene) {
+PhaseMixture<C>::PhaseMixture(const Scene& scene, Vec3 direction, const MarchRecord<C>& record, int segment,
+                              Arena& arena)
+    : scene_(scene), direction_(direction) {
   if (!record.medium_density) return;
   const auto densities = arena.alloc_span<float>(scene.media.size());
   for (std::size_t m = 0; m < densities.size(); ++m) densities[m] = record.medium_density[m][segment];
@@ -17,7 +18,8 @@ template <int C> float PhaseMixture<C>::share(std::size_t m) const {
   return sum;
 }
 
-template <int C> Spectrum<C> PhaseMixture<C>::value(float cos_theta) const {
+template <int C> Spectrum<C> PhaseMixture<C>::value(Vec3 wi) const {
+  const float cos_theta = dot(direction_, wi);
   if (single()) return filled<C>(scene_.phases[0]->value(cos_theta));
   Spectrum<C> result, sum;
   for (std::size_t m = 0; m < densities_.size(); ++m) {
@@ -29,7 +31,8 @@ template <int C> Spectrum<C> PhaseMixture<C>::value(float cos_theta) const {
   return result;
 }
 
-template <int C> float PhaseMixture<C>::pdf_w(float cos_theta) const {
+template <int C> float PhaseMixture<C>::pdf_w(Vec3 wi) const {
+  const float cos_theta = dot(direction_, wi);
   if (single()) return scene_.phases[0]->value(cos_theta);
   float sum = 0, total = 0;
   for (std::size_t m = 0; m < densities_.size(); ++m) {
@@ -41,15 +44,15 @@ template <int C> float PhaseMixture<C>::pdf_w(float cos_theta) const {
   return total > 0 ? sum / total : 0;
 }
 
-template <int C> Spectrum<C> PhaseMixture<C>::weight(float cos_theta) const {
+template <int C> Spectrum<C> PhaseMixture<C>::weight(Vec3 wi) const {
   if (single()) return filled<C>(1);
-  Spectrum<C> result = value(cos_theta);
-  const float pdf = pdf_w(cos_theta);
+  Spectrum<C> result = value(wi);
+  const float pdf = pdf_w(wi);
   for (float& v : result.v) v = pdf > 0 ? v / pdf : 0;
   return result;
 }
 
-template <int C> Vec3 PhaseMixture<C>::sample(Vec3 direction, float u_lobe, Vec2 u) const {
+template <int C> Vec3 PhaseMixture<C>::sample(float u_lobe, Vec2 u) const {
   std::size_t chosen = 0;
   if (!single()) {
     float total = 0;
@@ -62,7 +65,7 @@ template <int C> Vec3 PhaseMixture<C>::sample(Vec3 direction, float u_lobe, Vec2
       rest -= share(m);
     }
   }
-  return scene_.phases[chosen]->sample(direction, u).direction;
+  return scene_.phases[chosen]->sample(direction_, u).direction;
 }
 
 template class PhaseMixture<1>;

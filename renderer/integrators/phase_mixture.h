@@ -7,26 +7,30 @@
 
 namespace brume {
 
+/// A Scatterer.
 template <int C> class PhaseMixture {
  public:
+  /// @param direction  of travel of the ray at the point, unit
   /// @param densities  of the media at the point; empty where the scene has only one. Must outlive the mixture.
-  PhaseMixture(const Scene& scene, std::span<const float> densities) : scene_(scene), densities_(densities) {}
+  PhaseMixture(const Scene& scene, Vec3 direction, std::span<const float> densities)
+      : scene_(scene), direction_(direction), densities_(densities) {}
 
   /// At a segment of a record; the densities lie in the arena.
-  PhaseMixture(const Scene& scene, const MarchRecord<C>& record, int segment, Arena& arena);
+  PhaseMixture(const Scene& scene, Vec3 direction, const MarchRecord<C>& record, int segment, Arena& arena);
 
   /// sum_m sigma_s,m p_m / sum_m sigma_s,m per channel, 1/sr.
-  Spectrum<C> value(float cos_theta) const;
+  Spectrum<C> value(Vec3 wi) const;
 
   /// With which sample() draws a direction, per sr; value() itself for a single medium.
-  float pdf_w(float cos_theta) const;
+  float pdf_w(Vec3 wi) const;
 
   /// value() over pdf_w(), the weight of a sample: 1 for a single medium, whatever the direction.
-  Spectrum<C> weight(float cos_theta) const;
+  Spectrum<C> weight(Vec3 wi) const;
 
   /// Draws a medium by what it scatters, summed over the channels, then a direction by its phase function.
-  /// @param direction  of travel before, unit
-  Vec3 sample(Vec3 direction, float u_lobe, Vec2 u) const;
+  Vec3 sample(float u_lobe, Vec2 u) const;
+
+  float peak() const { return scene_.phase_peak; }
 
  private:
   /// What medium m scatters here in channel c, and in all of them.
@@ -35,6 +39,7 @@ template <int C> class PhaseMixture {
   bool single() const { return densities_.empty(); }
 
   const Scene& scene_;
+  Vec3 direction_;
   std::span<const float> densities_;
 };
 

@@ -13,17 +13,19 @@ template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context
   for (int bounce = 0;; ++bounce) {
     const ArenaScope scope(context.arena);
     ++context.statistics.rays;
+    const std::optional<SurfaceHit> surface = close(ray, scene);
     const MarchSettings settings{scene.step_size, context.sampler.u1(Decision::MarchOffset, bounce), scene.render.time,
                                  true};
     MarchRecord<C> rec = record_ray<C>(ray, settings, context);
     if (!rec.empty()) distribute(rec, beta, context.arena);
     if (bounce == 0) {
       if (context.diagnostics) diagnose(rec, *context.diagnostics);
-      radiance = visible_lights(scene, ray, [&](float t) { return to_color(transmittance_to(rec, t)); });
+      radiance = visible_lights(scene, ray, surface, [&](float t) { return to_color(transmittance_to(rec, t)); });
     }
-    if (rec.empty()) return radiance;
-    radiance += beta * emitted_radiance(rec);
-    if (!(rec.scattered() > 0)) return radiance;
+    if (!rec.empty()) radiance += beta * emitted_radiance(rec);
+    const auto shadowed = [&](const Light& light, const Ray& towards, int index) {
+      return shadow(light, towards, bounce, index, context);
+    };
 
     for (int i = 0; i < rec.n; ++i) {
       const ArenaScope step_scope(context.arena);
@@ -35,15 +37,14 @@ template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context
         scattered[c] = at.sigma_s[channel] * at.transmittance[channel] * width;
       }
       if (is_black(scattered)) continue;
-      const PhaseMixture<C> phase(scene, rec, i, context.arena);
+      const PhaseMixture<C> phase(scene, ray.direction, rec, i, context.arena);
       radiance += beta * scattered *
-                  light_at_point(ray.at(at.t), ray.direction, phase, bounce, i, scene.render.light_samples, context,
-                                 [&](const Light& light, const Ray& towards, int index) {
-                                   return shadow(light, towards, bounce, index, context);
-                                 });
+                  light_at_point<C>(ray.at(at.t), phase, bounce, i, scene.render.light_samples, context, shadowed);
     }
+    if (surface)
+      radiance += beta * to_color(transmittance(rec)) * light_at_surface<C>(*surface, bounce, rec.n, context, shadowed);
     if (bounce == scene.render.bounces) return radiance;
-    if (!scatter(rec, ray, beta, bounce, context)) return radiance;
+    if (!scatter(rec, surface, ray, beta, bounce, context)) return radiance;
   }
 }
 

@@ -55,27 +55,49 @@ template <int C> struct Marching {
     const ArenaScope scope(context.arena);
     const Scene& scene = context.scene;
     const Vec3 x = ray.at(t);
-    const PhaseMixture<C> phase(scene, rec, i, context.arena);
-    light(x, phase, value * (1.0f / static_cast<float>(samples())), k);
-    if (k != chosen) return;
-    const auto scattered = scatter_direction(phase, x, ray.direction, bounce, context);
+    const PhaseMixture<C> phase(scene, ray.direction, rec, i, context.arena);
+    radiance += value * (1.0f / static_cast<float>(samples())) *
+                light_at_point<C>(x, phase, bounce, k, 1, context, shadow_march());
+    if (k == chosen) go_on(x, phase, value, tracked, pdf);
+  }
+
+  /// The distances from k on are beyond all of the medium, whose optical depth is `depth`: they are at the surface.
+  void reflect_at(const SurfaceHit& surface, const Spectrum<C>& depth, int k, int chosen) {
+    // f = T; p = T for every channel that might have led.
+    Spectrum<C> tracked;
+    float pdf = 0;
+    Color value = beta;
+    for (int c = 0; c < 3; ++c) value[c] *= std::exp(-depth[C == 1 ? 0 : c]);
+    for (int c = 0; c < C; ++c) {
+      tracked[c] = p[c] * std::exp(-depth[c]);
+      pdf += tracked[c] / C;
+    }
+    if (!(pdf > 0)) return;
+    value *= 1 / pdf;
+    const int n = samples();
+    radiance += value * (static_cast<float>(n - k) / static_cast<float>(n)) *
+                light_at_surface<C>(surface, bounce, n, context, shadow_march());
+    if (chosen >= k) go_on(surface.position, DiffuseReflection<C>(surface.normal, surface.albedo), value, tracked, pdf);
+  }
+
+  template <Scatterer<C> S> void go_on(Vec3 x, const S& scatterer, Color value, const Spectrum<C>& tracked, float pdf) {
+    const auto scattered = scatter_direction<C>(scatterer, x, bounce, context);
     goes_on = true;
     next = {x, scattered.direction};
     next_beta = value * to_color(scattered.weight);
     for (int c = 0; c < C; ++c) next_p[c] = tracked[c] / pdf;
   }
 
-  int samples() const { return context.scene.render.light_samples; }
-
-  /// One shadow ray to every light, or to one of them.
-  void light(Vec3 x, const PhaseMixture<C>& phase, Color value, int k) {
-    radiance += value * light_at_point(x, ray.direction, phase, bounce, k, 1, context,
-                                       [&](const Light&, const Ray& shadow, int index) {
-                                         return to_color(marched_shadow<C>(shadow, bounce, index, context));
-                                       });
+  auto shadow_march() {
+    return [this](const Light&, const Ray& shadow, int index) {
+      return to_color(marched_shadow<C>(shadow, bounce, index, context));
+    };
   }
 
-  void march() {
+  int samples() const { return context.scene.render.light_samples; }
+
+  /// @param surface  that closes the ray
+  void march(const std::optional<SurfaceHit>& surface) {
     const Scene& scene = context.scene;
     const int n = samples();
     // Stratified numbers are sorted as they come.
@@ -88,14 +110,14 @@ template <int C> struct Marching {
     const float offset = context.sampler.u1(Decision::MarchOffset, bounce);
     Spectrum<C> before;  // optical depth of the chunks behind
     const Presence presence = find_presence(scene.media, ray, context.arena);
-    if (presence.empty()) return;
     int k = 0;
     float depth = depth_of(0);
-    const float end = presence.edges.back();
-    for (float from = presence.edges.front(); from < end;) {
+    const Interval inside = presence.empty() ? Interval{} : Interval{presence.edges.front(), presence.edges.back()};
+    const float end = inside.end;
+    for (float from = inside.begin; from < end;) {
       const ArenaScope scope(context.arena);
       const float to = std::min(end, from + kChunk * scene.step_size);
-      if (!(to > from)) return;
+      if (!(to > from)) break;
       MarchRecord<C> rec =
           record_ray<C>({ray.origin, ray.direction, {from, to}}, {scene.step_size, offset, scene.render.time}, context);
       from = to;
@@ -113,6 +135,7 @@ template <int C> struct Marching {
       // Emission is collected on the whole ray, for it needs no random number.
       if (k == n && !scene.needs.emission) return;
     }
+    if (surface && k < n) reflect_at(*surface, before, k, chosen);
   }
 };
 
@@ -127,6 +150,7 @@ template <int C> Color marched(const Ray& ray, float t, SampleContext& context) 
 
 template <int C> Color trace(Ray ray, SampleContext& context) {
   const Scene& scene = context.scene;
+  std::optional<SurfaceHit> surface = close(ray, scene);
   if (context.diagnostics) {
     const auto depth = shadow_optical_depth<C>(
         scene.media, ray, {scene.step_size, context.sampler.u1(Decision::MarchOffset), scene.render.time},
@@ -134,7 +158,7 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
     context.diagnostics->optical_depth = to_color(depth);
     for (int c = 0; c < 3; ++c) context.diagnostics->transmittance[c] = std::exp(-to_color(depth)[c]);
   }
-  Color radiance = visible_lights(scene, ray, [&](float t) { return marched<C>(ray, t, context); });
+  Color radiance = visible_lights(scene, ray, surface, [&](float t) { return marched<C>(ray, t, context); });
   auto p = filled<C>(1);
   const int leader = leading_channel<C>(context.sampler);
   Color beta(1);
@@ -142,13 +166,14 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
     const ArenaScope scope(context.arena);
     ++context.statistics.rays;
     Marching<C> marching{context, bounce, ray, beta, p, leader};
-    marching.march();
+    marching.march(surface);
     radiance += marching.radiance;
     if (bounce == scene.render.bounces || !marching.goes_on) return radiance;
     beta = marching.next_beta;
     if (!is_black(beta)) beta *= roulette(beta, bounce, context);
     if (is_black(beta)) return radiance;
     ray = marching.next;
+    surface = close(ray, scene);
     p = marching.next_p;
   }
 }

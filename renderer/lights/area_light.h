@@ -1,6 +1,7 @@
 // Lights with a surface.
 #pragma once
 
+#include "renderer/geometry/surface.h"
 #include "renderer/lights/light.h"
 
 namespace brume {
@@ -9,7 +10,7 @@ namespace brume {
 /// drawn uniformly over the area; kinds differ only in where their points lie.
 class AreaLight : public Light {
  public:
-  IncidentLight incident(const LightPoint& point, Vec3 x) const final;
+  IncidentLight incident(const LightPoint& point, Vec3 x) const override;
   /// The ray above the tangent plane of the point.
   Interval lit_part(const LightPoint& point, const Ray& ray) const final;
   std::optional<LightHit> hit(const Ray& ray) const final;
@@ -20,13 +21,11 @@ class AreaLight : public Light {
   AreaLight(Color radiance, bool two_sided, float area, Vec3 middle)
       : radiance_(radiance), two_sided_(two_sided), area_(area), middle_(middle) {}
 
-  /// Where a ray meets the surface, whichever side it comes from.
-  struct Meeting {
-    float t;
-    Vec3 normal;  ///< unit
-  };
-  /// The nearest one inside ray.span (for closed surfaces: from outside).
-  virtual std::optional<Meeting> meet(const Ray& ray) const = 0;
+  /// The nearest place inside ray.span where the ray meets the surface, whichever side it comes from.
+  virtual std::optional<SurfaceCrossing> meet(const Ray& ray) const = 0;
+
+  float sampled_area() const { return area_; }
+  Vec3 middle() const { return middle_; }
 
  private:
   Color radiance_;

@@ -9,13 +9,13 @@ LightPoint DiscLight::sample_point(Vec2 u) const {
   return {LightPoint::Kind::Finite, center_ + frame_.s * (p.x * radius_) + frame_.t * (p.y * radius_), {}, frame_.n};
 }
 
-std::optional<AreaLight::Meeting> DiscLight::meet(const Ray& ray) const {
+std::optional<SurfaceCrossing> DiscLight::meet(const Ray& ray) const {
   const float slope = dot(ray.direction, frame_.n);
   if (slope == 0) return std::nullopt;
   const float t = dot(center_ - ray.origin, frame_.n) / slope;
   if (!(t > ray.span.begin && t < ray.span.end)) return std::nullopt;
   if (length_squared(ray.at(t) - center_) > radius_ * radius_) return std::nullopt;
-  return Meeting{t, frame_.n};
+  return SurfaceCrossing{t, frame_.n};
 }
 
 }  // namespace brume

@@ -16,7 +16,7 @@ class DiscLight final : public AreaLight {
   LightPoint sample_point(Vec2 u) const override;
 
  private:
-  std::optional<Meeting> meet(const Ray& ray) const override;
+  std::optional<SurfaceCrossing> meet(const Ray& ray) const override;
 
   Vec3 center_;
   Frame frame_;

@@ -32,6 +32,9 @@ struct IncidentLight {
 /// Nearer to a light point than this, in world units, nothing is received: 1/r^2 has no value that a float could hold.
 inline constexpr float kAtTheLight = 1e-15f;
 
+/// Share of the way to a light point at which a shadow ray ends, short of the surface that the point is on.
+inline constexpr float kJustBefore = 1 - 1e-4f;
+
 /// A ray meeting a light.
 struct LightHit {
   float t;          ///< infinite for environments

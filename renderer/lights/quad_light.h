@@ -11,11 +11,10 @@ class QuadLight final : public AreaLight {
   LightPoint sample_point(Vec2 u) const override;
 
  private:
-  std::optional<Meeting> meet(const Ray& ray) const override;
+  std::optional<SurfaceCrossing> meet(const Ray& ray) const override;
 
   Vec3 corner_, edge_u_, edge_v_;
   Vec3 normal_;
-  float area_;
 };
 
 }  // namespace brume

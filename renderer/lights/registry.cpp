@@ -1,6 +1,8 @@
 #include "renderer/lights/registry.h"
 
 #include "renderer/core/check.h"
+#include "renderer/geometry/shape_params.h"
+#include "renderer/geometry/transform_params.h"
 #include "renderer/lights/constant_environment.h"
 #include "renderer/lights/directional_light.h"
 #include "renderer/lights/disc_light.h"
@@ -75,14 +77,26 @@ const ParamTable& sphere_table() {
   return table;
 }
 
+const ParamTable& mesh_table() {
+  static const ParamTable table = [] {
+    ParamTable t =
+        light_table("mesh", "Mesh light",
+                    "A glowing mesh that shines from the front of its triangles, outwards where it is closed.", false,
+                    {mesh_file_param(), radiance_param(4),
+                     param::flag("two_sided", "Two-sided", false).says("Whether the back shines too.")});
+    t.slots.push_back({"transform", "Transform", "Where the mesh stands.", &transform_family()});
+    return t;
+  }();
+  return table;
+}
+
 const ParamTable& quad_table() {
   static const ParamTable table = light_table(
       "quad", "Quad light", "A glowing parallelogram that shines along cross(edge_u, edge_v).", false,
       {param::point("corner", "Corner", -0.5, -0.5, 3).says("One corner."),
        param::vector("edge_u", "Edge u", 0, 1, 0).in("world units").says("From the corner along one side."),
        param::vector("edge_v", "Edge v", 1, 0, 0).in("world units").says("From the corner along the other side."),
-       param::color("radiance", "Radiance", 4, 4, 4).slider(0, 50).in("W/(sr m^2)").says("Radiance of the lit side."),
-       param::flag("two_sided", "Two-sided", false).says("Whether the other side shines too.")});
+       radiance_param(4), param::flag("two_sided", "Two-sided", false).says("Whether the other side shines too.")});
   return table;
 }
 
@@ -137,21 +151,14 @@ template <class Kind, class... Args> Result<MadeLight> made(Args&&... args) {
   return MadeLight{std::make_unique<Kind>(std::forward<Args>(args)...)};
 }
 
-/// A unit vector from one of any length.
-Result<Vec3> unit(const Node& n, const char* key) {
-  const Vec3d d = n.vec3(key);
-  if (!(length(d) > 0)) return bad_input("found [0, 0, 0], expected a direction", {"", 0, 0, key});
-  return Vec3(normalize(d));
-}
-
 Result<MadeLight> make_point(const Node& n, const LightContext& c) {
   return made<PointLight>(placed(n, "position", c.scene_origin), n.color("intensity"));
 }
 
 Result<MadeLight> make_spot(const Node& n, const LightContext& c) {
-  const auto axis = unit(n, "direction");
+  const auto axis = direction_of(n, "direction");
   if (!axis) return axis.error();
-  return made<SpotLight>(placed(n, "position", c.scene_origin), *axis, number(n, "cone_deg") * kRadians,
+  return made<SpotLight>(placed(n, "position", c.scene_origin), Vec3(*axis), number(n, "cone_deg") * kRadians,
                          number(n, "blend"), n.color("intensity"));
 }
 
@@ -164,9 +171,9 @@ Result<MadeLight> make_quad(const Node& n, const LightContext& c) {
 }
 
 Result<MadeLight> make_disc(const Node& n, const LightContext& c) {
-  const auto normal = unit(n, "normal");
+  const auto normal = direction_of(n, "normal");
   if (!normal) return normal.error();
-  return made<DiscLight>(placed(n, "center", c.scene_origin), *normal, number(n, "radius"), n.color("radiance"),
+  return made<DiscLight>(placed(n, "center", c.scene_origin), Vec3(*normal), number(n, "radius"), n.color("radiance"),
                          n.flag("two_sided"));
 }
 
@@ -174,10 +181,22 @@ Result<MadeLight> make_sphere(const Node& n, const LightContext& c) {
   return made<SphereLight>(placed(n, "center", c.scene_origin), number(n, "radius"), n.color("radiance"));
 }
 
+Result<MadeLight> make_mesh(const Node& n, const LightContext& c) {
+  const auto mesh = load_mesh(n, c.meshes);
+  if (!mesh) return mesh.error();
+  const auto placed = world_from_local(n.child("transform"));
+  if (!placed) return under("transform", placed.error());
+  auto surface = std::make_shared<MeshSurface>(*mesh, translation(-c.scene_origin) * *placed);
+  auto sampling = surface->sampling();
+  if (!sampling) return bad_input("found triangles without area, expected some area to shine", {"", 0, 0, "file"});
+  return made<SurfaceLight>(std::move(surface), std::move(sampling), n.color("radiance"), n.flag("two_sided"),
+                            SurfaceLight::Hiding::ByLight);
+}
+
 Result<MadeLight> make_directional(const Node& n, const LightContext&) {
-  const auto direction = unit(n, "direction");
+  const auto direction = direction_of(n, "direction");
   if (!direction) return direction.error();
-  return made<DirectionalLight>(*direction, n.color("irradiance"), number(n, "angular_diameter_deg") * kRadians);
+  return made<DirectionalLight>(Vec3(*direction), n.color("irradiance"), number(n, "angular_diameter_deg") * kRadians);
 }
 
 Result<MadeLight> make_environment(const Node& n, const LightContext&) {
@@ -188,11 +207,7 @@ Result<MadeLight> make_image_environment(const Node& n, const LightContext& c) {
   const std::string& file = n.text("file");
   if (file.empty()) return bad_input("found no file name, expected a picture in .exr or .hdr", {"", 0, 0, "file"});
   const auto map = c.pictures.load(file, EnvironmentMap::read);
-  if (!map) {
-    Error error = map.error();
-    error.source.key = "file";
-    return error;
-  }
+  if (!map) return under("file", map.error());
   MadeLight out{std::make_unique<ImageEnvironment>(*map, n.color("radiance"), number(n, "rotate_deg") * kRadians)};
   if ((*map)->mended() > 0)
     out.warnings.push_back(file + ": " + std::to_string((*map)->mended()) +
@@ -209,6 +224,7 @@ const std::vector<LightType>& light_types() {
                                             {&quad_table(), make_quad},
                                             {&disc_table(), make_disc},
                                             {&sphere_table(), make_sphere},
+                                            {&mesh_table(), make_mesh},
                                             {&environment_table(), make_environment},
                                             {&image_environment_table(), make_image_environment}};
   return types;

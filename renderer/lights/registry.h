@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "renderer/core/file_cache.h"
+#include "renderer/geometry/mesh.h"
 #include "renderer/lights/environment_map.h"
 #include "renderer/lights/light.h"
 #include "renderer/params/node.h"
@@ -14,6 +15,7 @@ namespace brume {
 struct LightContext {
   Vec3d scene_origin;  ///< world position that is (0,0,0) of the scene
   FileCache<EnvironmentMap>& pictures;
+  FileCache<Mesh>& meshes;
 };
 
 struct MadeLight {

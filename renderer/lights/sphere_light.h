@@ -1,22 +1,18 @@
 #pragma once
 
-#include "renderer/lights/area_light.h"
+#include "renderer/lights/surface_light.h"
 
 namespace brume {
 
 /// A sphere that emits outwards.
-class SphereLight final : public AreaLight {
+class SphereLight final : public SurfaceLight {
  public:
   SphereLight(Vec3 center, float radius, Color radiance)
-      : AreaLight(radiance, false, 4 * kPi * radius * radius, center), center_(center), radius_(radius) {}
-  LightPoint sample_point(Vec2 u) const override;
-  float solid_angle(Vec3 x) const override;
+      : SphereLight(std::make_shared<SphereSurface>(Vec3d(center), double(radius)), radiance) {}
 
  private:
-  std::optional<Meeting> meet(const Ray& ray) const override;
-
-  Vec3 center_;
-  float radius_;
+  SphereLight(const std::shared_ptr<const SphereSurface>& sphere, Color radiance)
+      : SurfaceLight(sphere, sphere->sampling(), radiance, false, Hiding::Impossible) {}
 };
 
 }  // namespace brume

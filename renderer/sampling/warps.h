@@ -30,4 +30,11 @@ inline Vec2 uniform_disc(Vec2 u) {
   return {r * std::cos(phi), r * std::sin(phi)};
 }
 
+/// On the side of `normal`, with the pdf cosine / pi per sr.
+inline Vec3 cosine_hemisphere(Vec3 normal, Vec2 u) {
+  const Vec2 p = uniform_disc(u);
+  const float height = std::sqrt(std::max(0.0f, 1 - u.x));  // u.x is the squared radius
+  return normalize(Frame(normal).to_world({p.x, p.y, height}));
+}
+
 }  // namespace brume

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "renderer/lights/registry.h"
+#include "renderer/lights/surface_light.h"
 #include "renderer/phase/registry.h"
 #include "renderer/scene/scene.h"
 #include "renderer/scene/volume.h"
@@ -16,6 +17,7 @@ ParamTable scene_table(const Family& render_family) {
            {"film", "Film", "The size of the picture and how it is shown.", &film_family()},
            {"render", "Render", "How light is computed.", &render_family},
            {"volumes", "Volumes", "Smoke, fire, cloud and fog.", &volume_family(), true},
+           {"surfaces", "Surfaces", "What stands among the volumes and stops light.", &surface_family(), true},
            {"lights", "Lights", "What lights the volumes.", &light_family(), true}}};
 }
 
@@ -27,20 +29,15 @@ std::string element_path(const char* list, std::size_t index, const Node& node) 
   return std::string(list) + "." + (name.empty() ? std::to_string(index) : name);
 }
 
-Error at(const std::string& path, Error error) {
-  error.source.key = error.source.key.empty() ? path : path + "." + error.source.key;
-  return error;
-}
-
 using Volumes = std::vector<MadeVolume>;
 
-Result<Volumes> make_volumes(const Node& description, Vec3d origin, GridCache& grids, const LoadOptions& options) {
+Result<Volumes> make_volumes(const Node& description, Vec3d origin, SceneCache& cache, const LoadOptions& options) {
   Volumes volumes;
   const auto nodes = description.list("volumes");
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (!nodes[i].flag("enabled")) continue;
-    auto volume = make_volume(nodes[i], origin, grids, options);
-    if (!volume) return at(element_path("volumes", i, nodes[i]), volume.error());
+    auto volume = make_volume(nodes[i], origin, cache, options);
+    if (!volume) return under(element_path("volumes", i, nodes[i]), volume.error());
     volumes.push_back(std::move(*volume));
   }
   return volumes;
@@ -52,8 +49,37 @@ Bounds3 bounds_of(const Volumes& volumes) {
   return all;
 }
 
+/// A surface that shines is a light too; the camera sees it as a surface.
+std::unique_ptr<Light> light_of(const MadeSurface& made) {
+  if (!made.material.emits()) return nullptr;
+  auto sampling = made.surface->sampling();
+  if (!sampling) return nullptr;
+  return std::make_unique<SurfaceLight>(made.surface, std::move(sampling), made.material.radiance,
+                                        made.material.two_sided, SurfaceLight::Hiding::ByScene);
+}
+
+/// The enabled surfaces, and the lights that some of them are.
+Result<void> add_surfaces(const Node& description, SceneCache& cache, Scene& scene) {
+  std::vector<MadeSurface> surfaces;
+  const auto nodes = description.list("surfaces");
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!nodes[i].flag("enabled")) continue;
+    auto made = make_surface(nodes[i], scene.origin, cache.meshes);
+    if (!made) return under(element_path("surfaces", i, nodes[i]), made.error());
+    if (auto light = light_of(*made)) scene.lights.push_back(std::move(light));
+    if (!is_grey(made->material.albedo)) scene.needs.channels = 3;
+    surfaces.push_back(std::move(*made));
+  }
+  if (surfaces.empty()) return {};
+  auto all = Surfaces::make(surfaces);
+  if (!all) return all.error();
+  scene.surfaces = std::move(*all);
+  return {};
+}
+
 SceneNeeds needs_of(const Scene& scene) {
-  SceneNeeds needs;
+  SceneNeeds needs = scene.needs;
+  needs.surfaces = scene.surfaces != nullptr;
   for (const Medium& m : scene.media) {
     if (!is_grey(m.sigma_t) || !is_grey(m.sigma_s)) needs.channels = 3;
     needs.emission |= m.emits();
@@ -100,13 +126,13 @@ Result<std::shared_ptr<const Scene>> commit(const Node& description, SceneCache&
   scene->film = read_film_settings(description.child("film"));
   scene->render = read_render_settings(description.child("render"));
 
-  auto volumes = make_volumes(description, {}, cache.grids, load);
+  auto volumes = make_volumes(description, {}, cache, load);
   if (!volumes) return volumes.error();
   scene->bounds = bounds_of(*volumes);
   // Near the world's origin coordinates stay as written.
   if (!scene->bounds.empty() && length(scene->bounds.center()) > 16 * scene->bounds.diagonal()) {
     scene->origin = scene->bounds.center();
-    volumes = make_volumes(description, scene->origin, cache.grids, load);
+    volumes = make_volumes(description, scene->origin, cache, load);
     if (!volumes) return volumes.error();
     scene->bounds = bounds_of(*volumes);
   }
@@ -119,14 +145,16 @@ Result<std::shared_ptr<const Scene>> commit(const Node& description, SceneCache&
   const auto lights = description.list("lights");
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (!lights[i].flag("enabled")) continue;
-    auto made = make_light(lights[i], {scene->origin, cache.pictures});
-    if (!made) return at(element_path("lights", i, lights[i]), made.error());
+    auto made = make_light(lights[i], {scene->origin, cache.pictures, cache.meshes});
+    if (!made) return under(element_path("lights", i, lights[i]), made.error());
     scene->lights.push_back(std::move(made->light));
     scene->warnings.insert(scene->warnings.end(), made->warnings.begin(), made->warnings.end());
   }
 
+  if (const auto added = add_surfaces(description, cache, *scene); !added) return added.error();
+
   auto camera = make_camera(description.child("camera"), scene->origin);
-  if (!camera) return at("camera", camera.error());
+  if (!camera) return under("camera", camera.error());
   scene->camera = *camera;
 
   for (const auto& phase : scene->phases)
@@ -145,7 +173,7 @@ std::string SceneNeeds::to_string() const {
   if (overlap) text += ", overlapping";
   if (emission) text += ", glowing";
   text += time ? ", moving" : ", static";
-  text += surfaces ? ", surfaces" : ", no surfaces";
+  text += surfaces ? ", surfaces (Embree)" : ", no surfaces";
   return text;
 }
 

@@ -15,6 +15,7 @@
 #include "renderer/scene/scene_cache.h"
 #include "renderer/scene/scene_needs.h"
 #include "renderer/scene/settings.h"
+#include "renderer/surfaces/surfaces.h"
 
 namespace brume {
 
@@ -31,7 +32,8 @@ struct Scene {
 
   std::vector<Medium> media;                                 // enabled volumes
   std::vector<std::unique_ptr<const PhaseFunction>> phases;  ///< of the media, in their order
-  std::vector<std::unique_ptr<const Light>> lights;          // enabled lights
+  std::vector<std::unique_ptr<const Light>> lights;          // enabled lights; then the surfaces that shine
+  std::unique_ptr<const Surfaces> surfaces;                  // null without any
   std::vector<const Light*>
       lamps_inside;      ///< lights with a place in or near a medium, none with a surface, at most kMaxLampsInside
   Majorants majorants;   ///< of all media

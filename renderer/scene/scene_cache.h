@@ -1,6 +1,7 @@
 // What scenes have read from files so far, shared by the scenes made of it.
 #pragma once
 
+#include "renderer/geometry/mesh.h"
 #include "renderer/lights/registry.h"
 #include "renderer/media/grid_cache.h"
 
@@ -9,9 +10,10 @@ namespace brume {
 struct SceneCache {
   GridCache grids;
   FileCache<EnvironmentMap> pictures;
+  FileCache<Mesh> meshes;
 
   /// Forgets what no scene holds.
-  void drop_unused() { grids.drop_unused(), pictures.drop_unused(); }
+  void drop_unused() { grids.drop_unused(), pictures.drop_unused(), meshes.drop_unused(); }
 };
 
 }  // namespace brume

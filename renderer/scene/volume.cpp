@@ -2,30 +2,12 @@
 
 #include "renderer/core/check.h"
 #include "renderer/geometry/shape_params.h"
+#include "renderer/geometry/transform_params.h"
 #include "renderer/media/registry.h"
 #include "renderer/phase/registry.h"
 
 namespace brume {
 namespace {
-
-const Family& transform_family() {
-  static const ParamTable table{
-      "transform",
-      "Transform",
-      "From the volume's own space to the world: scaled, then rotated about x, y, z, then moved.",
-      {param::vector("translate", "Move", 0, 0, 0).in("world units").slider(-10, 10).says("Shift in world space."),
-       param::vector("rotate_deg", "Rotate", 0, 0, 0)
-           .slider(-180, 180)
-           .in("degrees")
-           .says("Turns about x, then y, then z."),
-       param::vector("scale", "Scale", 1, 1, 1)
-           .slider(0.1, 10)
-           .says("Stretch along each axis; negative mirrors, 0 is refused."),
-       param::matrix("matrix", "Matrix").says("A 4x4 affine matrix by rows that replaces the three above when given.")},
-      {}};
-  static const Family family{"transform", "", {&table}};
-  return family;
-}
 
 ParamTable volume_table(const ShaderType& shader) {
   ParamTable table{shader.key, shader.label, shader.doc, {}, {}};
@@ -81,29 +63,6 @@ const ShaderType& shader_of(const Node& volume) {
   return shader_types().front();
 }
 
-Result<Affined> world_from_local(const Node& transform) {
-  const auto wrong = [](const char* key, const std::string& message) {
-    return bad_input(message, {"", 0, 0, std::string("transform.") + key});
-  };
-  if (const Numbers& m = transform.numbers("matrix"); !m.empty()) {
-    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
-      return wrong("matrix", "found a last row other than 0, 0, 0, 1, expected an affine matrix by rows");
-    Affined affine;
-    for (int i = 0; i < 3; ++i) {
-      const double* row = &m[static_cast<std::size_t>(4 * i)];
-      affine.row[i] = {row[0], row[1], row[2]};
-      affine.offset[i] = row[3];
-    }
-    if (!inverse(affine)) return wrong("matrix", "found a matrix that flattens space, expected an invertible one");
-    return affine;
-  }
-  const Affined affine = translation(transform.vec3("translate")) * rotation_deg(transform.vec3("rotate_deg")) *
-                         scaling(transform.vec3("scale"));
-  if (!inverse(affine))
-    return wrong("scale", "found " + format_value(transform.value("scale")) + ", expected no component to be 0");
-  return affine;
-}
-
 /// density_scale and albedo are the shorthand of sigma_s and sigma_a; this is where they become coefficients.
 void set_coefficients(const Node& volume, Medium& medium) {
   const float scale = static_cast<float>(volume.number("density_scale"));
@@ -126,20 +85,16 @@ const Family& volume_family() {
   return family;
 }
 
-Result<MadeVolume> make_volume(const Node& volume, Vec3d scene_origin, GridCache& grids, const LoadOptions& options) {
+Result<MadeVolume> make_volume(const Node& volume, Vec3d scene_origin, SceneCache& cache, const LoadOptions& options) {
   const auto placed = world_from_local(volume.child("transform"));
-  if (!placed) return placed.error();
+  if (!placed) return under("transform", placed.error());
   const Affined local_from_scene = *inverse(translation(-scene_origin) * *placed);
 
-  auto made = shader_of(volume).make(volume, {local_from_scene, grids, options});
+  auto made = shader_of(volume).make(volume, {local_from_scene, cache.grids, options});
   if (!made) return made.error();
   if (!made->shape) {
-    auto shape = make_shape(volume.child("bounds"));
-    if (!shape) {
-      Error error = shape.error();
-      error.source.key = "bounds." + error.source.key;
-      return error;
-    }
+    auto shape = make_shape(volume.child("bounds"), cache.meshes);
+    if (!shape) return under("bounds", shape.error());
     made->shape = std::move(*shape);
     made->shape_from_scene = local_from_scene;
   }

@@ -1,10 +1,10 @@
 // A volume of the scene file: shader x bounds x transform, with optical coefficients and a phase function.
 #pragma once
 
-#include "renderer/media/grid_cache.h"
 #include "renderer/media/medium.h"
 #include "renderer/params/node.h"
 #include "renderer/phase/phase_function.h"
+#include "renderer/scene/scene_cache.h"
 
 namespace brume {
 
@@ -20,6 +20,6 @@ struct MadeVolume {
 
 /// @param volume  of volume_family().  @param scene_origin  world position that is (0,0,0) of the scene
 /// Reads files through the cache.  Errors name the key below the volume.
-Result<MadeVolume> make_volume(const Node& volume, Vec3d scene_origin, GridCache& grids, const LoadOptions& options);
+Result<MadeVolume> make_volume(const Node& volume, Vec3d scene_origin, SceneCache& cache, const LoadOptions& options);
 
 }  // namespace brume

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
 namespace brume {
@@ -85,12 +86,36 @@ Node overlapping_scene() {
   return scene;
 }
 
+/// A ball in the fog over a floor, a glowing ball behind, and a plate that is cut out of the picture.
+Node surfaces_scene() {
+  Node scene = view();
+  Node& fog = box(scene, "gaussian", "-1,-1,-0.6", "1,1,1");
+  set(fog, "density_scale", "1.5");
+  Node& floor = add_surface(scene, "plane");
+  set(floor, "point", "0,0,-0.7");
+  set(floor, "material.albedo", "0.6,0.5,0.4");
+  Node& ball = add_surface(scene, "sphere");
+  set(ball, "center", "0.3,-0.1,-0.1");
+  set(ball, "radius", "0.35");
+  set(ball, "material.albedo", "0.2,0.7,0.8");
+  Node& glow = add_surface(scene, "sphere");
+  set(glow, "center", "-0.8,0.9,0.6");
+  set(glow, "radius", "0.2");
+  set(glow, "material.type", "emissive");
+  set(glow, "material.radiance", "6,5,2");
+  Node& plate = add_surface(scene, "mesh");
+  set(plate, "file", write_obj("agreement_plate.obj", cube_mesh(0.15f)));
+  set(plate, "transform.translate", "-0.5,-0.6,-0.1");
+  set(plate, "transform.scale", "1,0.2,1.5");
+  set(plate, "material.type", "holdout");
+  return scene;
+}
+
 Film rendered(Node scene, const std::string& integrator, int samples, int seed) {
-  Node& render = scene.child("render");
-  render = render.converted_to(*scene_family().tables.front()->find_slot("render")->family->find(integrator));
+  scene = with_integrator(std::move(scene), integrator);
   set(scene, "render.sampler", "independent");
   set(scene, "render.seed", std::to_string(seed));
-  if (render.table().find("step_size")) set(scene, "render.step_size", "0.012");
+  if (scene.child("render").table().find("step_size")) set(scene, "render.step_size", "0.012");
   WorkerPool pool;
   Film film(kWidth, kHeight);
   render_batch(*committed(scene), samples, film, pool);
@@ -154,6 +179,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Agreement,
                          testing::Values(std::pair("homogeneous", &homogeneous_scene),
                                          std::pair("chromatic", &chromatic_scene),
                                          std::pair("overlapping", &overlapping_scene),
+                                         std::pair("surfaces", &surfaces_scene),
                                          std::pair(
                                              "smoke", +[] { return grid_scene("smoke_plume_96_f050.vdb", "8"); }),
                                          std::pair(

@@ -5,6 +5,7 @@
 
 #include "renderer/lights/registry.h"
 #include "renderer/scene/volume.h"
+#include "renderer/surfaces/registry.h"
 
 namespace brume {
 namespace {
@@ -37,6 +38,15 @@ void set(Node& node, const std::string& path, const std::string& text) { must(se
 
 Node& add_volume(Node& scene, const std::string& shader) { return add(scene, "volumes", volume_family(), shader); }
 Node& add_light(Node& scene, const std::string& type) { return add(scene, "lights", light_family(), type); }
+
+Node& add_surface(Node& scene, const std::string& type) { return add(scene, "surfaces", surface_family(), type); }
+
+Node with_integrator(Node scene, const std::string& key) {
+  const ParamTable* table = scene_family().tables.front()->find_slot("render")->family->find(key);
+  if (!table) must(Result<void>(bad_input("no such integrator: " + key)));
+  scene.child("render") = scene.child("render").converted_to(*table);
+  return scene;
+}
 
 std::shared_ptr<const Scene> committed(const Node& description, std::uint64_t generation) {
   SceneCache cache;

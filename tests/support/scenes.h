@@ -20,6 +20,10 @@ void set(Node& node, const std::string& path, const std::string& text);
 /// lives until the next one is added.
 Node& add_volume(Node& scene, const std::string& shader);
 Node& add_light(Node& scene, const std::string& type);
+Node& add_surface(Node& scene, const std::string& type);
+
+/// The scene rendered by another integrator, which keeps the settings that both have.
+Node with_integrator(Node scene, const std::string& key);
 
 /// The committed scene; a refusal ends the program.
 std::shared_ptr<const Scene> committed(const Node& description, std::uint64_t generation = 1);

@@ -1,7 +1,7 @@
 # Third-party libraries as imported targets. Their headers count as system headers, so they raise no warnings.
 #
 #   brume::openvdb brume::nanovdb brume::embree TBB::tbb OpenEXR::OpenEXR Imath::Imath PNG::PNG
-#   nlohmann_json::nlohmann_json hwy::hwy Threads::Threads                     for the renderer
+#   nlohmann_json::nlohmann_json hwy::hwy tinyobjloader::tinyobjloader Threads::Threads     for the renderer
 #   brume::imgui brume::stb glfw brume::osmesa brume::egl CLI11::CLI11         for the program
 #   GTest::gtest_main benchmark::benchmark                                     for the tests
 #
@@ -108,6 +108,8 @@ if(TARGET embree)
     INTERFACE_COMPILE_DEFINITIONS BRUME_EMBREE_VERSION=${embree_major}
     INTERFACE_LINK_LIBRARIES embree)
 endif()
+
+brume_find_config(tinyobjloader::tinyobjloader "tinyobjloader" libtinyobjloader-dev tinyobjloader)
 
 # ---- Program --------------------------------------------------------------------------------------------------------
 

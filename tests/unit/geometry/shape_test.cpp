@@ -5,6 +5,7 @@
 #include "renderer/geometry/shape_params.h"
 #include "renderer/sampling/sampler.h"
 #include "renderer/sampling/warps.h"
+#include "tests/support/meshes.h"
 
 namespace brume {
 namespace {
@@ -149,8 +150,11 @@ TEST(Shape, BoundsHoldTheShape) {
 }
 
 TEST(ShapeRegistry, EveryKindIsMadeFromItsDefaultsAndParametersReachIt) {
+  FileCache<Mesh> meshes;
   for (const ParamTable* table : shape_family().tables) {
-    const auto shape = make_shape(Node(*table));
+    Node node(*table);
+    if (table->find("file")) ASSERT_TRUE(node.set("file", write_obj("shape_test.obj", cube_mesh())).ok());
+    const auto shape = make_shape(node, meshes);
     ASSERT_TRUE(shape.ok()) << table->key;
     EXPECT_FALSE((*shape)->bounds().empty());
     EXPECT_FALSE(inside(**shape, {{0, 0, 0}, {0, 0, 1}}).empty()) << table->key << " does not hold its own origin";
@@ -158,13 +162,14 @@ TEST(ShapeRegistry, EveryKindIsMadeFromItsDefaultsAndParametersReachIt) {
   Node ball(*shape_family().find("sphere"));
   ASSERT_TRUE(ball.set("center", Numbers{1, 2, 3}).ok());
   ASSERT_TRUE(ball.set("radius", 4.0).ok());
-  EXPECT_EQ((*make_shape(ball))->bounds().high, Vec3d(5, 6, 7));
+  EXPECT_EQ((*make_shape(ball, meshes))->bounds().high, Vec3d(5, 6, 7));
 }
 
 TEST(ShapeRegistry, ABoxWithoutVolumeIsRefusedByTheNameOfTheKey) {
   Node box(*shape_family().find("box"));
   ASSERT_TRUE(box.set("max", Numbers{1, -1, 1}).ok());
-  const auto shape = make_shape(box);
+  FileCache<Mesh> meshes;
+  const auto shape = make_shape(box, meshes);
   ASSERT_FALSE(shape.ok());
   EXPECT_EQ(shape.error().source.key, "max");
 }

@@ -241,14 +241,14 @@ TEST(PhaseMixture, SamplesHaveTheMeanCosineOfTheMixtureAndWeightsThatAverageToOn
   RecordedRay<3> r(media, ray_along_z(-1), 1);
   Arena arena;
   const ArenaScope scope(arena);
-  const PhaseMixture<3> mixture(scene, *r, 0, arena);
   const Vec3 incident = normalize(Vec3(1, -2, 2));
+  const PhaseMixture<3> mixture(scene, incident, *r, 0, arena);
   RunningMean weight[3], cosine[3];
   for (std::uint32_t i = 0; i < 200000; ++i) {
     const Sampler random(SamplerKind::Independent, 3, 0, i);
-    const Vec3 w = mixture.sample(incident, random.u1(Decision::PhaseLobe), random.u2(Decision::PhaseDirection));
-    const float c = dot(incident, w), pdf = mixture.pdf_w(c);
-    const auto value = mixture.value(c);
+    const Vec3 w = mixture.sample(random.u1(Decision::PhaseLobe), random.u2(Decision::PhaseDirection));
+    const float c = dot(incident, w), pdf = mixture.pdf_w(w);
+    const auto value = mixture.value(w);
     for (int k = 0; k < 3; ++k)
       weight[k].add(double(value[k] / pdf)), cosine[k].add(double(value[k] / pdf) * double(c));
   }
@@ -272,10 +272,10 @@ TEST(PhaseMixture, EveryLobeNumberChoosesAMediumThatScatters) {
   RecordedRay<1> r(media, ray_along_z(-1), 1);
   Arena arena;
   const ArenaScope scope(arena);
-  const PhaseMixture<1> mixture(scene, *r, 0, arena);
+  const PhaseMixture<1> mixture(scene, {0, 0, 1}, *r, 0, arena);
   for (const float u : {0.0f, 0.3f, 0.66666f, 0.66667f, 0.9f, 0x1.fffffep-1f}) {
-    const Vec3 w = mixture.sample({0, 0, 1}, u, {0.9f, 0.4f});
-    EXPECT_NEAR(mixture.value(w.z)[0] / mixture.pdf_w(w.z), 1, 1e-6) << "u = " << u;
+    const Vec3 w = mixture.sample(u, {0.9f, 0.4f});
+    EXPECT_NEAR(mixture.value(w)[0] / mixture.pdf_w(w), 1, 1e-6) << "u = " << u;
     EXPECT_LT(w.z, 0) << "u = " << u << " chose a medium that does not scatter";
   }
 }

@@ -9,21 +9,26 @@
 #include "renderer/lights/quad_light.h"
 #include "renderer/lights/registry.h"
 #include "renderer/sampling/sampler.h"
+#include "tests/support/meshes.h"
 #include "tests/support/statistics.h"
 
 namespace brume {
 namespace {
 
-/// A light as a scene file makes it; the file of a picture is one of a single pixel.
+/// A light as a scene file makes it; a picture is of one colour, a mesh a cube.
 Result<std::unique_ptr<Light>> make(const Node& node, Vec3d scene_origin = {}) {
   Node complete = node;
   if (node.table().find("file")) {
-    const std::string path = testing::TempDir() + "light_test.exr";
-    EXPECT_TRUE(write_exr(path, Image(4, 2, Color(1))).ok());
+    std::string path = testing::TempDir() + "light_test.exr";
+    if (node.kind() == "mesh")
+      path = write_obj("light_test.obj", cube_mesh());
+    else
+      EXPECT_TRUE(write_exr(path, Image(4, 2, Color(1))).ok());
     EXPECT_TRUE(complete.set("file", path).ok());
   }
   FileCache<EnvironmentMap> pictures;
-  auto made = make_light(complete, {scene_origin, pictures});
+  FileCache<Mesh> meshes;
+  auto made = make_light(complete, {scene_origin, pictures, meshes});
   if (!made) return made.error();
   return std::move(made->light);
 }
@@ -194,6 +199,8 @@ TEST(LightRegistry, LightsMoveWithTheOriginOfTheScene) {
       const Vec3d at = here.vec3(p.key) + origin;
       ASSERT_TRUE(far.set(p.key, Numbers{at.x, at.y, at.z}).ok());
     }
+    if (type.table->find_slot("transform"))
+      ASSERT_TRUE(far.child("transform").set("translate", Numbers{origin.x, origin.y, origin.z}).ok());
     const auto a = make(here), b = make(far, origin);
     ASSERT_TRUE(a.ok() && b.ok());
     const LightPoint pa = (*a)->sample_point({0.3f, 0.6f}), pb = (*b)->sample_point({0.3f, 0.6f});
