@@ -36,6 +36,7 @@ std::string format_report(const RenderReport& report) {
 
   json["non_finite_samples"] = s.rays.non_finite;
   json["capped_rays"] = s.rays.march.capped;
+  json["majorant_exceeded"] = s.rays.march.exceeded;
 
   json["needs"] = report.scene.needs.to_string();
   json["step_size"] = report.scene.step_size;
@@ -48,9 +49,10 @@ std::string format_report(const RenderReport& report) {
 std::size_t grid_memory_bytes(const Node& description, GridCache& grids) {
   std::set<std::pair<std::string, std::string>> names;
   for (const Node& volume : description.list("volumes")) {
-    if (!volume.flag("enabled") || !volume.table().find("grid")) continue;
-    for (const char* key : {"grid", "emission_grid"})
-      if (!volume.text(key).empty()) names.emplace(volume.text("file"), volume.text(key));
+    if (!volume.flag("enabled")) continue;
+    for (const Param& p : volume.table().params)
+      if (p.type == ParamType::Grid && !volume.text(p.key).empty())
+        names.emplace(volume.text("file"), volume.text(p.key));
   }
   std::size_t bytes = 0;
   for (const auto& [file, grid] : names)

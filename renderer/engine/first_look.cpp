@@ -64,6 +64,12 @@ void add_lights(Node& scene) {
   must(rim.set("irradiance", Numbers{2.2, 3, 4.5}));
 }
 
+/// Grids hold kelvin or, more often, numbers that somebody found handy: then the hottest is made a candle's flame.
+double kelvin_per_unit(float hottest) {
+  const bool kelvin = hottest > 500;
+  return kelvin || !(hottest > 0) ? 1 : 2700 / static_cast<double>(hottest);
+}
+
 }  // namespace
 
 double density_scale_for(const Scene& scene, double target) {
@@ -98,8 +104,16 @@ Result<FirstLook> first_look(const std::string& path, SceneCache& cache, const L
   if (flame) {
     must(volume.set("emission_grid", *flame));
     must(volume.set("emission_scale", 8.0));
-    must(volume.set("emission_color", Numbers{1, 0.42, 0.12}));
     look.notes.push_back("glow from the grid \"" + *flame + "\"");
+    if (const auto heat = guess_temperature_grid(*infos)) {
+      const auto loaded = cache.grids.load(path, *heat, options);
+      if (!loaded) return loaded.error();
+      must(volume.set("temperature_grid", *heat));
+      must(volume.set("temperature_scale", two_digits(kelvin_per_unit((*loaded)->grid->max_value()))));
+      look.notes.push_back("its colour from the grid \"" + *heat + "\"");
+    } else {
+      must(volume.set("emission_color", Numbers{1, 0.42, 0.12}));
+    }
   }
 
   // Framed from the front, a little from above.

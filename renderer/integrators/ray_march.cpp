@@ -27,7 +27,8 @@ template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context
       return shadow(light, towards, bounce, index, context);
     };
 
-    for (int i = 0; i < rec.n; ++i) {
+    const bool scatters = !rec.empty() && rec.scattered() > 0;
+    for (int i = 0; scatters && i < rec.n; ++i) {
       const ArenaScope step_scope(context.arena);
       const float width = rec.t[i + 1] - rec.t[i];
       const RayPoint<C> at = evaluate(rec, rec.t[i] + settings.offset * width, i);

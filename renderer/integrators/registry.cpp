@@ -11,6 +11,7 @@ RayStatistics& RayStatistics::operator+=(const RayStatistics& other) {
   march.lookups += other.march.lookups;
   march.segments += other.march.segments;
   march.capped += other.march.capped;
+  march.exceeded += other.march.exceeded;
   return *this;
 }
 

@@ -113,13 +113,15 @@ template <int C> struct Marching {
     int k = 0;
     float depth = depth_of(0);
     const Interval inside = presence.empty() ? Interval{} : Interval{presence.edges.front(), presence.edges.back()};
-    const float end = inside.end;
+    float step = scene.step_size;
+    segment_count(inside.length(), step, context.statistics.march);
+    // Far from the ray's origin the next float may be further away than all of the steps.
+    const float end = inside.end, chunk = std::max(kChunk * step, 1e-6f * end);
     for (float from = inside.begin; from < end;) {
       const ArenaScope scope(context.arena);
-      const float to = std::min(end, from + kChunk * scene.step_size);
-      if (!(to > from)) break;
+      const float to = std::min(end, from + chunk);
       MarchRecord<C> rec =
-          record_ray<C>({ray.origin, ray.direction, {from, to}}, {scene.step_size, offset, scene.render.time}, context);
+          record_ray<C>({ray.origin, ray.direction, {from, to}}, {step, offset, scene.render.time}, context);
       from = to;
       if (rec.empty()) continue;
       distribute(rec, beta, context.arena);

@@ -111,13 +111,16 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
       }
       if (contents.overlap) add_scaled(rec.medium_density[m] + first, density.data(), 1.0f, stretch.count);
       if (!contents.emission || !medium.emits()) continue;
+      EmissionBatch glow{density.data(), density.data(), density.data()};
       if (medium.traits.own_emission) {
-        medium.shader->emission(points, density.data());
+        glow = alloc_emission(count, arena);
+        medium.shader->emission(points, glow);
         counts.lookups += count;
       }
-      for (int c = 0; c < 3; ++c)
-        add_scaled(rec.emission[static_cast<std::size_t>(c)] + first, density.data(), medium.emission[c],
-                   stretch.count);
+      for (int c = 0; c < 3; ++c) {
+        const auto channel = static_cast<std::size_t>(c);
+        add_scaled(rec.emission[channel] + first, glow[channel], medium.emission[c], stretch.count);
+      }
     }
   }
   return rec;

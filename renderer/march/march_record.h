@@ -14,7 +14,9 @@ namespace brume {
 struct MarchCounts {
   std::uint64_t lookups = 0;   ///< points asked of shaders
   std::uint64_t segments = 0;  ///< recorded on camera and scattered rays
-  std::uint64_t capped = 0;    ///< stretches whose step was raised to stay within kMaxSegments
+  std::uint64_t capped = 0;    ///< stretches whose step was raised to stay within kMaxSegments, and rays whose majorant
+                               ///< was lowered to stay within kMaxFlights
+  std::uint64_t exceeded = 0;  ///< tentative collisions where there was more than the majorant
 };
 
 struct MarchSettings {

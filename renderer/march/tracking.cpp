@@ -15,19 +15,22 @@ TentativeCollisions<C>::TentativeCollisions(std::span<const Medium> media, const
   if (stretches_.empty()) return;
   at_ = static_cast<double>(stretches_.front().span.begin);
   batch_ = arena.alloc_span<Collision<C>>(kLargestBatch);
-  x_ = arena.alloc_span<float>(kLargestBatch), y_ = arena.alloc_span<float>(kLargestBatch);
-  z_ = arena.alloc_span<float>(kLargestBatch), values_ = arena.alloc_span<float>(kLargestBatch);
   if (media.size() > 1) densities_ = arena.alloc_span<float>(kLargestBatch * media.size());
 }
 
 template <int C> bool TentativeCollisions<C>::fly(float& t, float& majorant) {
   if (stretch_ >= stretches_.size()) return false;
+  if (drawn_ == kMaxFlights) {
+    limit_ = static_cast<float>(kMaxFlights / (static_cast<double>(stretches_.back().span.end) - at_));
+    ++counts_.capped;
+  }
   double tau = -std::log1p(-static_cast<double>(numbers_.next(drawn_++)));
   for (; stretch_ < stretches_.size(); ++stretch_) {
     const MajorantStretch& s = stretches_[stretch_];
     float wanted = 0;
     for (int c = 0; c < C; ++c)
       if (!dropped_[c]) wanted = std::max(wanted, C == 1 ? max_channel(s.majorant) : s.majorant[c]);
+    wanted = std::min(wanted, limit_);
     const double sigma = static_cast<double>(wanted), end = static_cast<double>(s.span.end);
     const double from = std::max(at_, static_cast<double>(s.span.begin)), depth = sigma * (end - from);
     if (tau < depth) {
@@ -43,12 +46,15 @@ template <int C> bool TentativeCollisions<C>::fly(float& t, float& majorant) {
 
 namespace {
 
-/// Looks the media up at the collisions, whose t is known; the arrays have room for as many points.
+/// Looks the media up at the collisions, whose t is known.
+/// @param densities  room for one of every medium and collision; none where there is one medium
 template <int C>
 void look_up(std::span<const Medium> media, const Presence& presence, const Ray& ray, float time,
-             std::span<Collision<C>> batch, std::span<float> densities, std::span<float> x, std::span<float> y,
-             std::span<float> z, std::span<float> values, MarchCounts& counts) {
+             std::span<Collision<C>> batch, std::span<float> densities, Arena& arena, MarchCounts& counts) {
+  const ArenaScope scope(arena);
   const std::size_t n = batch.size();
+  const auto x = arena.alloc_span<float>(n), y = arena.alloc_span<float>(n), z = arena.alloc_span<float>(n);
+  const auto values = arena.alloc_span<float>(n);
   for (std::size_t i = 0; i < n; ++i) {
     Collision<C>& c = batch[i];
     const Vec3 p = ray.at(c.t);
@@ -78,10 +84,12 @@ void look_up(std::span<const Medium> media, const Presence& presence, const Ray&
       if (medium.emits() && !medium.traits.own_emission) c.emission += medium.emission * values[i];
     }
     if (!medium.emits() || !medium.traits.own_emission) continue;
-    medium.shader->emission(points, values.data());
+    const EmissionBatch own = alloc_emission(n, arena);
+    medium.shader->emission(points, own);
     counts.lookups += n;
     for (std::size_t i = 0; i < n; ++i)
-      if (presence.contains(m, batch[i].t)) batch[i].emission += medium.emission * values[i];
+      if (presence.contains(m, batch[i].t))
+        batch[i].emission += medium.emission * Color(own[0][i], own[1][i], own[2][i]);
   }
 }
 
@@ -95,8 +103,7 @@ template <int C> void TentativeCollisions<C>::fill() {
     ends_[static_cast<std::size_t>(size_)] = {at_, stretch_};
   }
   capacity_ = std::min(2 * capacity_, kLargestBatch);
-  look_up(media_, presence_, ray_, time_, batch_.first(static_cast<std::size_t>(size_)), densities_, x_, y_, z_,
-          values_, counts_);
+  look_up(media_, presence_, ray_, time_, batch_.first(static_cast<std::size_t>(size_)), densities_, arena_, counts_);
 }
 
 template <int C> const Collision<C>* TentativeCollisions<C>::next() {
@@ -107,7 +114,11 @@ template <int C> const Collision<C>* TentativeCollisions<C>::next() {
   }
   const auto i = static_cast<std::size_t>(used_++);
   here_ = ends_[i].at, here_stretch_ = ends_[i].stretch;
-  return &batch_[i];
+  const Collision<C>& collision = batch_[i];
+  constexpr float kRounding = 1 + 1e-5f;
+  for (int c = 0; c < C; ++c)
+    if (!dropped_[c] && !limited() && collision.sigma_t[c] > kRounding * collision.majorant) ++counts_.exceeded;
+  return &collision;
 }
 
 template <int C> void TentativeCollisions<C>::drop(int channel) {
@@ -128,7 +139,9 @@ Spectrum<C> ratio_tracking(std::span<const Medium> media, const Majorants& major
   while (const Collision<C>* c = collisions.next()) {
     int gone = 0;
     for (int k = 0; k < C; ++k) {
-      result[k] *= std::max(0.0f, 1 - c->sigma_t[k] / c->majorant);
+      // Where there is more than the majorant the factor is negative, and the mean still right.
+      const float passes = 1 - c->sigma_t[k] / c->majorant;
+      result[k] *= std::abs(passes) < 1e-6f || (passes < 0 && collisions.limited()) ? 0 : passes;
       if (result[k] == 0) collisions.drop(k), ++gone;
     }
     if (gone == C) break;
@@ -140,12 +153,11 @@ template <int C>
 Collision<C> collision_at(std::span<const Medium> media, const Ray& ray, float t, float time, Arena& arena,
                           MarchCounts& counts) {
   const Presence presence = find_presence(media, ray, arena);
-  const auto numbers = [&] { return arena.alloc_span<float>(1); };
   const auto densities = media.size() > 1 ? arena.alloc_span<float>(media.size()) : std::span<float>();
   Collision<C> at;
   at.t = t;
   at.majorant = 0;
-  look_up(media, presence, ray, time, std::span(&at, 1), densities, numbers(), numbers(), numbers(), numbers(), counts);
+  look_up(media, presence, ray, time, std::span(&at, 1), densities, arena, counts);
   return at;
 }
 

@@ -25,8 +25,12 @@ struct FlightNumbers {
   Decision decision;
   int bounce, index;
 
-  float next(int j) const { return sampler.u1(decision, bounce, (index << 14) + j); }
+  float next(int j) const { return sampler.u1(decision, bounce, (index << 16) + j); }
 };
+
+/// After as many free flights a ray's majorant is lowered, so that about as many again take it to its end: one voxel of
+/// 1e30 holds nothing up. Where there is more than that, transmittance is taken as 0 at the first collision.
+inline constexpr int kMaxFlights = 1 << 14;
 
 /// The tentative collisions of one ray, one after the other: distances are exponential in the optical depth of the
 /// majorant. Where the collisions are does not depend on what is found there, so they are drawn and looked up in
@@ -42,6 +46,9 @@ template <int C> class TentativeCollisions {
 
   /// From the last collision on, nothing in this channel matters any more: its majorant is left out.
   void drop(int channel);
+
+  /// Whether the majorant had to be lowered.
+  bool limited() const { return drawn_ > kMaxFlights; }
 
  private:
   static constexpr int kLargestBatch = 16;
@@ -67,10 +74,10 @@ template <int C> class TentativeCollisions {
   std::size_t here_stretch_ = 0;
   double at_ = 0;  // where the last flight ended; flights may be shorter than a float's spacing
   int drawn_ = 0;  // numbers used
+  float limit_ = std::numeric_limits<float>::infinity();  // of the majorant
 
   std::span<Collision<C>> batch_;
-  std::span<float> densities_;           // [kLargestBatch][media], where there are several
-  std::span<float> x_, y_, z_, values_;  // [kLargestBatch]
+  std::span<float> densities_;  // [kLargestBatch][media], where there are several
   int size_ = 0, used_ = 0, capacity_ = 2;
   bool dropped_[C] = {};
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "renderer/core/blackbody.h"
 #include "renderer/media/brick_lookup.h"
 #include "renderer/media/registry.h"
 
@@ -18,12 +19,12 @@ void lookup(const GridShader::Field& field, const PointBatch& points, float* out
 
 }  // namespace
 
-GridShader::GridShader(Field density, Field emission, float voxel_size)
-    : density_(std::move(density)), emission_(std::move(emission)), voxel_size_(voxel_size) {}
+GridShader::GridShader(Field density, Glow glow, float voxel_size)
+    : density_(std::move(density)), glow_(std::move(glow)), voxel_size_(voxel_size) {}
 
 ShaderTraits GridShader::traits() const {
   ShaderTraits traits;
-  traits.own_emission = emission_.grid != nullptr;
+  traits.own_emission = glow_.amount.grid || glow_.temperature.grid;
   traits.finest_scale = voxel_size_;
   return traits;
 }
@@ -36,7 +37,23 @@ float GridShader::max_density(const Bounds3& box) const {
   return density_.grid->max_value(in_grid) * 1.00001f;  // interpolation rounds
 }
 
-void GridShader::emission(const PointBatch& points, float* emission) const { lookup(emission_, points, emission); }
+void GridShader::emission(const PointBatch& points, const EmissionBatch& emission) const {
+  const auto [r, g, b] = emission;
+  if (glow_.amount.grid)
+    lookup(glow_.amount, points, r);
+  else
+    std::fill_n(r, points.n, 1.0f);
+  if (!glow_.temperature.grid) {
+    std::copy_n(r, points.n, g);
+    std::copy_n(r, points.n, b);
+    return;
+  }
+  lookup(glow_.temperature, points, g);
+  for (int i = 0; i < points.n; ++i) {
+    const Color glow = g[i] > 0 ? r[i] * blackbody_glow(glow_.scale * g[i] + glow_.offset) : Color{};
+    r[i] = glow.r, g[i] = glow.g, b[i] = glow.b;
+  }
+}
 
 namespace {
 
@@ -47,16 +64,19 @@ double smallest_edge(const Affined& index_to_world) {
 
 Result<MadeShader> make_grid_shader(const Node& volume, const ShaderContext& context) {
   MadeShader made;
-  GridShader::Field fields[2];
-  const char* const keys[2] = {"grid", "emission_grid"};
-  Affined index_from_scene[2];
-  Bounds3 support[2];
+  constexpr int kFields = 3;
+  const char* const keys[kFields] = {"grid", "emission_grid", "temperature_grid"};
+  GridShader::Field fields[kFields];
+  Affined index_from_scene[kFields];
+  Bounds3 support[kFields];
   double voxel_size = std::numeric_limits<double>::infinity();
   const std::string& file = volume.text("file");
   if (file.empty()) return bad_input("found no file name, expected a .vdb or .nvdb file", {"", 0, 0, "file"});
-  for (int k = 0; k < 2; ++k) {
+  int main = -1;  // the first field that has a grid
+  for (int k = 0; k < kFields; ++k) {
     const std::string& name = volume.text(keys[k]);
     if (name.empty()) continue;
+    if (main < 0) main = k;
     const auto loaded = context.grids.load(file, name, context.load_options);
     if (!loaded) {
       Error error = loaded.error();
@@ -74,17 +94,17 @@ Result<MadeShader> make_grid_shader(const Node& volume, const ShaderContext& con
     support[k] = grid.grid->support();
     voxel_size = std::min(voxel_size, smallest_edge(*scene_from_local * grid.index_to_world));
   }
-  if (!fields[0].grid && !fields[1].grid)
-    return bad_input("found no grid, expected the name of one", {"", 0, 0, "grid"});
+  if (main < 0) return bad_input("found no grid, expected the name of one", {"", 0, 0, "grid"});
 
-  // The bounds are the density's box, grown so that they hold the emission's: fire may burn where there is no smoke.
-  const int main = fields[0].grid ? 0 : 1;
+  // The bounds are the first grid's box, grown so that they hold the others': fire may burn where there is no smoke.
   Bounds3 box = support[main];
-  if (main == 0 && fields[1].grid)
-    box.add(transform_bounds(index_from_scene[0] * *inverse(index_from_scene[1]), support[1]));
+  for (int k = main + 1; k < kFields; ++k)
+    if (fields[k].grid) box.add(transform_bounds(index_from_scene[main] * *inverse(index_from_scene[k]), support[k]));
   made.shape = std::make_shared<BoxShape>(box.low, box.high);
   made.shape_from_scene = index_from_scene[main];
-  made.shader = std::make_shared<GridShader>(fields[0], fields[1], static_cast<float>(voxel_size));
+  GridShader::Glow glow{fields[1], fields[2], static_cast<float>(volume.number("temperature_scale")),
+                        static_cast<float>(volume.number("temperature_offset"))};
+  made.shader = std::make_shared<GridShader>(fields[0], std::move(glow), static_cast<float>(voxel_size));
   return made;
 }
 
@@ -98,7 +118,19 @@ ShaderType vdb_shader_type() {
       {param::file("file", "File").must_be_given().says("The .vdb or .nvdb file."),
        param::grid("grid", "Density grid", "density").says("Name of the grid that gives the density; empty for none."),
        param::grid("emission_grid", "Emission grid")
-           .says("Name of the grid that gives the emission; empty: the emission follows the density.")},
+           .says("Name of the grid that gives the emission; empty: the emission follows the density."),
+       param::grid("temperature_grid", "Temperature grid")
+           .says("Name of the grid whose heat colours the emission as of a black body, 3000 K having the luminance 1; "
+                 "empty for none."),
+       param::number("temperature_scale", "Temperature scale", 1)
+           .at_least(0)
+           .log_slider(1, 3000)
+           .in("K")
+           .says("Kelvin for each unit of the temperature grid."),
+       param::number("temperature_offset", "Temperature offset", 0)
+           .slider(-1000, 1000)
+           .in("K")
+           .says("Kelvin added wherever the temperature grid is not 0.")},
       true,
       make_grid_shader};
 }

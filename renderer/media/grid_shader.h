@@ -7,7 +7,8 @@
 
 namespace brume {
 
-/// Density from a voxel grid, and emission from another grid (each with its own transform and resolution) where given.
+/// Density from a voxel grid, and emission from other grids where given: how much, how hot, or both. Each has its own
+/// transform and resolution.
 class GridShader final : public Shader {
  public:
   struct Field {
@@ -15,16 +16,24 @@ class GridShader final : public Shader {
     Affine index_from_scene;
   };
 
-  /// @param density, emission  either may have no grid, not both.  @param voxel_size  world units, the smallest edge
-  GridShader(Field density, Field emission, float voxel_size);
+  /// Emission is amount * blackbody_glow(scale * temperature + offset), each factor only where it has a grid; nothing
+  /// where the temperature's grid is 0, which is its outside.
+  struct Glow {
+    Field amount, temperature;
+    float scale = 1, offset = 0;  ///< K per value, K
+  };
+
+  /// @param density, glow  some field has a grid.  @param voxel_size  world units, the smallest edge
+  GridShader(Field density, Glow glow, float voxel_size);
 
   ShaderTraits traits() const override;
   void density(const PointBatch& points, float* density) const override;
   float max_density(const Bounds3& box) const override;
-  void emission(const PointBatch& points, float* emission) const override;
+  void emission(const PointBatch& points, const EmissionBatch& emission) const override;
 
  private:
-  Field density_, emission_;
+  Field density_;
+  Glow glow_;
   float voxel_size_;
 };
 

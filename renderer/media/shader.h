@@ -1,8 +1,10 @@
 // What fills a volume: a scalar density (and, for fire, an emission) asked for in batches of points.
 #pragma once
 
+#include <array>
 #include <optional>
 
+#include "renderer/core/arena.h"
 #include "renderer/core/bounds.h"
 #include "renderer/core/transform.h"
 
@@ -17,6 +19,13 @@ struct PointBatch {
   int n;
   float time;  ///< seconds
 };
+
+/// n emissions, one array per channel.
+using EmissionBatch = std::array<float*, 3>;
+
+inline EmissionBatch alloc_emission(std::size_t n, Arena& arena) {
+  return {arena.alloc_span<float>(n).data(), arena.alloc_span<float>(n).data(), arena.alloc_span<float>(n).data()};
+}
 
 /// What a shader can say about itself before it is asked.
 struct ShaderTraits {
@@ -40,8 +49,8 @@ class Shader {
   /// picture is wrong; where it is too high, only slow.
   virtual float max_density(const Bounds3& box) const = 0;
 
-  /// Writes emission[0..n), dimensionless, finite and >= 0; called only when traits().own_emission.
-  virtual void emission(const PointBatch& points, float* emission) const;
+  /// Writes emission[c][0..n), dimensionless, finite and >= 0; called only when traits().own_emission.
+  virtual void emission(const PointBatch& points, const EmissionBatch& emission) const;
 };
 
 }  // namespace brume

@@ -324,4 +324,8 @@ std::optional<std::string> guess_emission_grid(std::span<const GridInfo> grids) 
   return first_usable(grids, is_emission);
 }
 
+std::optional<std::string> guess_temperature_grid(std::span<const GridInfo> grids) {
+  return first_usable(grids, [](const GridInfo& i) { return names_any(i, {"temperature", "heat"}); });
+}
+
 }  // namespace brume

@@ -64,4 +64,7 @@ std::optional<std::string> guess_density_grid(std::span<const GridInfo> grids);
 /// The grid to take for emission: the first that is named flame, flames, fire, emission, ... and usable.
 std::optional<std::string> guess_emission_grid(std::span<const GridInfo> grids);
 
+/// The grid that says how hot the fire is: the first that is named temperature or heat and usable.
+std::optional<std::string> guess_temperature_grid(std::span<const GridInfo> grids);
+
 }  // namespace brume

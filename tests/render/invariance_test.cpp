@@ -88,6 +88,7 @@ std::pair<double, double> block(const Film& film, int column, int row, int chann
   return {sum / n, variance / (n * n)};
 }
 
+// O10 of the catalogue.
 TEST(Invariance, PicturesOfTurnedScaledMirroredAndMovedScenesAreTheSame) {
   const Whole same{"as it is", {}, 1};
   const Whole wholes[] = {

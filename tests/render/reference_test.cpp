@@ -6,26 +6,18 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <set>
 
+#include "tests/support/effort.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/statistics.h"
 
 namespace brume {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr double kNoiseFactor = 8;  // sanitized code is tens of times slower: 64 times fewer samples
-#else
-constexpr double kNoiseFactor = 1;
-#endif
-
-bool full() {
-  const char* value = std::getenv("BRUME_TEST_FULL");
-  return value && std::string(value) == "1";
-}
+/// 64 times fewer samples where a sanitizer makes the code tens of times slower.
+constexpr double kNoiseFactor = kFewer == 1 ? 1 : 8;
 
 std::string file(const std::string& name) { return BRUME_SOURCE_DIR "/tests/render/reference/" + name + ".json"; }
 
@@ -55,7 +47,7 @@ std::vector<ReferenceOutcome> run(const std::vector<std::string>& files, const R
 
 /// The three modes of decoupled marching where they can be held against closed forms.
 TEST(Reference, TransmittanceEmissionAndSingleScatteringWithinThreeInAThousand) {
-  const double noise = kNoiseFactor * (full() ? 1e-3 : 3e-3);
+  const double noise = kNoiseFactor * (full_effort() ? 1e-3 : 3e-3);
   ReferenceOptions options;
   options.methods = *reference_methods("decoupled");
   options.relative_error = 0.85 * noise;  // the pilot that it is planned by is noisy itself
@@ -70,10 +62,11 @@ TEST(Reference, TransmittanceEmissionAndSingleScatteringWithinThreeInAThousand) 
 }
 
 /// A medium that absorbs nothing, in light that is the same all around, cannot be told from that light.
+// O2 of the catalogue.
 TEST(Reference, WhiteFurnaceGivesOneWithUnlimitedBounces) {
   ReferenceOptions options;
   options.methods = *reference_methods("decoupled:mis");
-  options.relative_error = kNoiseFactor * (full() ? 2.5e-4 : 1e-3);
+  options.relative_error = kNoiseFactor * (full_effort() ? 2.5e-4 : 1e-3);
   options.seconds = 100;
   options.tag = "furnace";
   RunningMean mean;
@@ -88,9 +81,9 @@ TEST(Reference, WhiteFurnaceGivesOneWithUnlimitedBounces) {
 /// All 365 cases by the unbiased reference integrator and by decoupled marching in every mode.
 TEST(AllReferences, HoldForTheReferenceIntegratorAndForDecoupledMarching) {
   ReferenceOptions options;
-  options.relative_error = kNoiseFactor * (full() ? 1e-3 : 3e-3);
-  options.seconds = (full() ? 20 : 0.04) / (kNoiseFactor * kNoiseFactor);
-  options.everything = full();
+  options.relative_error = kNoiseFactor * (full_effort() ? 1e-3 : 3e-3);
+  options.seconds = (full_effort() ? 20 : 0.04) / (kNoiseFactor * kNoiseFactor);
+  options.everything = full_effort();
   const auto outcomes = run(all_files(), options);
 
   std::set<std::string> measured, all;
@@ -177,7 +170,7 @@ TEST(Reference, VarianceIsFiniteWithALampInsideTheMedium) {
     auto probe = ReferenceProbe::make(c, *q, {integrator, DistanceSampling::Mis, 0, SamplerKind::Independent, 3});
     ASSERT_TRUE(probe.ok());
     const double few = probe->radiance(100000).relative_deviation()[0];
-    const double many = probe->radiance(full() ? 10'000'000 : 2'000'000).relative_deviation()[0];
+    const double many = probe->radiance(full_effort() ? 10'000'000 : 2'000'000).relative_deviation()[0];
     EXPECT_NEAR(many * many / (few * few), 1, 0.2) << integrator << ": " << few << " and " << many;
   }
 }

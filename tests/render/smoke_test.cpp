@@ -6,21 +6,11 @@
 
 #include "renderer/film/image_io.h"
 #include "renderer/march/shadow_march.h"
+#include "tests/support/effort.h"
 #include "tests/support/scenes.h"
 
 namespace brume {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kFewer = 16;  // samples
-#else
-constexpr int kFewer = 1;
-#endif
-
-bool full() {
-  const char* value = std::getenv("BRUME_TEST_FULL");
-  return value && std::string(value) == "1";
-}
 
 /// The scene of the yardstick (S2_smoke.json), without its lights.
 Node plume() {
@@ -62,9 +52,9 @@ double deepest(const Scene& scene) {
   return depth;
 }
 
-// With camera and shadow steps alike the furnace is exact at every step: what the march of a ray takes from the
-// background is what it scatters, and light arrives through marches of the same kind. A step of some voxels makes it
-// fast.
+// O2 of the catalogue. With camera and shadow steps alike the furnace is exact at every step: what the march of a ray
+// takes from the background is what it scatters, and light arrives through marches of the same kind. A step of some
+// voxels makes it fast.
 TEST(Smoke, WhiteFurnaceGivesOneAtAnyStep) {
   Node scene = plume();
   set(scene, "render.sampler", "independent");
@@ -80,7 +70,7 @@ TEST(Smoke, WhiteFurnaceGivesOneAtAnyStep) {
     ASSERT_EQ(s->step_size, s->shadow_step_size);
     // Over the middle of the picture, where there is smoke: each sample is a pixel of its own.
     const auto integrator = make_integrator(*s);
-    const int samples = (full() ? 8000000 : 2000000) / kFewer;
+    const int samples = (full_effort() ? 8000000 : 2000000) / kFewer;
     Arena arena;
     RayStatistics statistics;
     RunningMean mean;
@@ -92,7 +82,7 @@ TEST(Smoke, WhiteFurnaceGivesOneAtAnyStep) {
     }
     std::printf("furnace at step %s: %.5f +- %.5f\n", step, mean.mean(), mean.standard_error());
     EXPECT_LT(std::abs(mean.mean() - 1), 4 * mean.standard_error()) << "step " << step;
-    EXPECT_LT(mean.standard_error(), (full() ? 2e-4 : 4e-4) * std::sqrt(kFewer)) << "step " << step;
+    EXPECT_LT(mean.standard_error(), (full_effort() ? 2e-4 : 4e-4) * std::sqrt(kFewer)) << "step " << step;
     EXPECT_NEAR(mean.mean(), 1, 1e-3 * std::sqrt(kFewer)) << "step " << step;
     EXPECT_EQ(statistics.non_finite, 0u);
   }
@@ -134,7 +124,7 @@ TEST(Smoke, DensityEquiangularAndMisAgreeInEveryBlockOfThePicture) {
     set(scene, "render.light_samples", "2");
     WorkerPool pool;
     Film film(kSize, kSize);
-    render_batch(*committed(scene), (full() ? 16 : 1) * (k == 1 ? 512 : 256) / kFewer, film, pool);
+    render_batch(*committed(scene), (full_effort() ? 16 : 1) * (k == 1 ? 512 : 256) / kFewer, film, pool);
     pictures.push_back(blocks_of(film, kBlock));
   }
   const int comparisons = static_cast<int>(pictures[0].mean.size()) * 3;

@@ -59,6 +59,7 @@ bool finished(const Engine& engine, std::size_t job, std::uint64_t generation) {
 
 // ---- Passes ---------------------------------------------------------------------------------------------------------
 
+// O13 of the catalogue; tests/render/oracles_test.cpp does it for every integrator.
 TEST(RenderBatch, GivesTheSameBitsAtAnyNumberOfThreads) {
   for (const char* sampler : {"sobol", "independent"}) {
     Node scene = empty_scene();

@@ -46,6 +46,7 @@ double henyey_greenstein(double g, double cosine) {
 
 // ---- Colour ---------------------------------------------------------------------------------------------------------
 
+// O6 of the catalogue.
 /// A slab lit along the line of sight: sigma_s p(-1) E integral of exp(-2 sigma t) = albedo p E (1 - exp(-2 tau)) / 2.
 TEST(Decoupled, ExtinctionsOf1To4To16AreRightInEveryChannel) {
   for (const char* mode : kModes) {
@@ -133,6 +134,7 @@ TEST(Decoupled, ABodyInThermalEquilibriumIsInvisible) {
   }
 }
 
+// O2 of the catalogue.
 TEST(Decoupled, WhiteFurnaceOfOverlappingMediaWithDifferentPhaseFunctionsGivesOne) {
   Node scene = independent_scene();
   set(scene, "render.bounces", "100000");

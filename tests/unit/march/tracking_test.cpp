@@ -19,7 +19,8 @@ Node scene_with(const std::string& shader) {
   return scene;
 }
 
-/// Majorants that are too low make a picture wrong in silence, so every shader's bound is held against its density.
+/// O4 of the catalogue. /// Majorants that are too low make a picture wrong in silence, so every shader's bound is held
+/// against its density.
 TEST(Majorants, NoShaderExceedsItsOwnBoundInAnyCell) {
   for (const ShaderType& type : shader_types()) {
     const auto scene = committed(scene_with(type.key));
@@ -103,6 +104,64 @@ TEST(Tracking, TransmittanceIsThatOfAVeryFineMarch) {
     EXPECT_GT(expected, 0.02);
     EXPECT_LT(expected, 0.9);
     EXPECT_NEAR(mean.mean(), expected, sidak_z(1e-3, 2) * mean.standard_error() + 1e-4) << cells << " cells";
+  }
+}
+
+/// C1 of the catalogue: density 1 on a path of length 1, with a spike of height h over a tenth of it.
+std::shared_ptr<const Scene> spike(const std::string& h) {
+  Node scene = empty_scene();
+  Node& v = add_volume(scene, "slabs");
+  set(v, "bounds.min", "-1,-1,0");
+  set(v, "bounds.max", "1,1,1");
+  set(v, "axis", "z");
+  set(v, "edges", "0,0.4,0.5,1");
+  set(v, "values", "1," + h + ",1");
+  return committed(scene);
+}
+
+/// O4: a majorant below the maximum is counted, and ratio tracking is right all the same; clamped at 0 its factors
+/// would be 16, 57 and 185 % too bright.
+TEST(Tracking, AMajorantThatIsTooLowIsCountedAndDoesNotBiasTheTransmittance) {
+  const auto low = spike("1.5");
+  for (const char* h : {"3", "6", "12"}) {
+    const auto scene = spike(h);
+    const Ray ray{{0, 0, -1}, {0, 0, 1}};
+    Arena arena;
+    MarchCounts counts;
+    RunningMean mean;
+    for (std::uint32_t i = 0; i < 400000; ++i) {
+      const Sampler random(SamplerKind::Independent, 3, 0, i);
+      mean.add(double(
+          ratio_tracking<1>(scene->media, low->majorants, ray, 0, {random, Decision::Flight, 0, 0}, arena, counts)[0]));
+    }
+    const double expected = std::exp(-0.9 - 0.1 * std::atof(h));
+    EXPECT_NEAR(mean.mean(), expected, sidak_z(1e-3, 3) * mean.standard_error()) << h;
+    EXPECT_LT(mean.standard_error(), 0.1 * expected) << h;  // factors of 1 - h / 1.5 are noisy
+    EXPECT_GT(counts.exceeded, 10000u) << h;
+    EXPECT_EQ(counts.capped, 0u);
+    MarchCounts right;
+    for (std::uint32_t i = 0; i < 1000; ++i)
+      ratio_tracking<1>(scene->media, scene->majorants, ray, 0,
+                        {Sampler(SamplerKind::Independent, 3, 0, i), Decision::Flight, 0, 0}, arena, right);
+    EXPECT_EQ(right.exceeded, 0u) << h;
+  }
+}
+
+/// A majorant that nobody could walk through, with next to nothing there.
+TEST(Tracking, FlightsOfARayAreBounded) {
+  const auto thin = spike("0.5");
+  const Ray ray{{0, 0, -1}, {0, 0, 1}};
+  for (const char* h : {"1e9", "1e20", "3e38"}) {
+    Arena arena;
+    MarchCounts counts;
+    RunningMean mean;
+    for (std::uint32_t i = 0; i < 20; ++i)
+      mean.add(double(ratio_tracking<1>(thin->media, spike(h)->majorants, ray, 0,
+                                        {Sampler(SamplerKind::Independent, 3, 0, i), Decision::Flight, 0, 0}, arena,
+                                        counts)[0]));
+    EXPECT_NEAR(mean.mean(), std::exp(-0.95), 0.01) << h;
+    EXPECT_EQ(counts.capped, 20u);
+    EXPECT_LT(counts.lookups, 20u * 3 * kMaxFlights);
   }
 }
 

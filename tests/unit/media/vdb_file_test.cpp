@@ -576,6 +576,7 @@ void expect_an_answer(const std::string& path, const std::string& bytes, bool mu
   EXPECT_FALSE(must_fail && (infos.ok() || grid.ok()));
 }
 
+// O12 of the catalogue.
 TEST(VdbDamage, CutOffAnywhereIsAnError) {
   const std::string whole = test::bytes_of(test::kSmoke), path = test::scratch("cut.vdb");
   for (std::size_t n = 0; n < whole.size(); n += 997) expect_an_answer(path, whole.substr(0, n), true);
