@@ -5,13 +5,13 @@
 #include "app/cli/console.h"
 #include "app/cli/grid_info.h"
 #include "app/cli/scene_info.h"
+#include "renderer/core/input_file.h"
 
 namespace brume {
 namespace {
 
 bool is_grid_file(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lower_case_extension(path);
   return extension == ".vdb" || extension == ".nvdb";
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "renderer/core/atomic_file.h"
+#include "renderer/core/input_file.h"
 #include "renderer/params/param.h"
 
 namespace brume {
@@ -19,8 +20,7 @@ Result<void> check_writable(const std::string& path) {
 }
 
 Result<void> check_output(const std::string& path, const std::vector<std::string>& extensions) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lower_case_extension(path);
   if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
     return bad_input(
         (extension.empty() ? "found a name without extension" : "found the extension \"" + extension + "\"") +

@@ -84,7 +84,7 @@ Result<ExitCode> run_probe(const ProbeOptions& options) {
   independent.settings.push_back({"--ray", "render.sampler", "independent"});
   const auto loaded = load_scene(independent, cache, {});
   if (!loaded) return loaded.error();
-  const auto scene = commit(loaded->description, cache, {});
+  const auto scene = commit_loaded(*loaded, cache);
   if (!scene) return scene.error();
   for (const std::string& warning : (*scene)->warnings) print_warning(warning);
   const auto ray = scene_ray(options, **scene);

@@ -130,7 +130,7 @@ Result<ExitCode> run_render(const RenderOptions& options) {
     if (!read) return read.error();
     loaded = std::move(*read);
     if (auto done = check_size(read_film_settings(loaded->description.child("film"))); !done) return done.error();
-    auto committed = commit(loaded->description, cache, {.progress = load.progress});
+    auto committed = commit_loaded(*loaded, cache, {.progress = load.progress});
     if (!committed) return committed.error();
     scene = *committed;
   }

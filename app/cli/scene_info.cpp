@@ -72,7 +72,7 @@ Json needs_json(const SceneNeeds& n) {
 }  // namespace
 
 Result<SceneInfo> examine_scene(const std::string& file, const LoadedScene& loaded, SceneCache& cache) {
-  const auto scene = commit(loaded.description, cache, {});
+  const auto scene = commit_loaded(loaded, cache);
   if (!scene) return scene.error();
   SceneInfo info{file, loaded, *scene, {}};
   for (const Node& volume : loaded.description.list("volumes")) {
@@ -103,12 +103,14 @@ std::string scene_as_text(const SceneInfo& info) {
                     values_text(volumes[i], Values::Changed)});
   text += format_table(rows, "llll", 2);
 
-  const auto lights = d.list("lights");
-  text += "\nlights: " + std::to_string(lights.size()) + "\n";
-  rows.clear();
-  for (std::size_t i = 0; i < lights.size(); ++i)
-    rows.push_back({name_of(lights[i], i), lights[i].kind(), values_text(lights[i], Values::All)});
-  text += format_table(rows, "lll", 2);
+  for (const char* list : {"surfaces", "lights"}) {
+    const auto nodes = d.list(list);
+    text += "\n" + std::string(list) + ": " + std::to_string(nodes.size()) + "\n";
+    rows.clear();
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      rows.push_back({name_of(nodes[i], i), nodes[i].kind(), values_text(nodes[i], Values::All)});
+    text += format_table(rows, "lll", 2);
+  }
 
   for (const std::string& note : info.loaded.notes) text += "\nnote: " + note;
   for (const std::string& warning : scene.warnings) text += "\nwarning: " + warning;

@@ -7,6 +7,7 @@
 
 #include "app/ui/keys.h"
 #include "app/ui/widgets.h"
+#include "renderer/core/input_file.h"
 
 namespace brume {
 namespace fs = std::filesystem;
@@ -34,8 +35,7 @@ void FileDialog::go_to(const std::string& folder) {
 bool FileDialog::shown(const std::string& name) const {
   if (name.starts_with('.')) return false;
   if (request_.extensions.empty()) return true;
-  std::string extension = fs::path(name).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lower_case_extension(name);
   return std::find(request_.extensions.begin(), request_.extensions.end(), extension) != request_.extensions.end();
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "app/session/display.h"
+#include "renderer/core/input_file.h"
 #include "renderer/engine/first_look.h"
 #include "renderer/film/image_io.h"
 #include "renderer/integrators/registry.h"
@@ -17,12 +18,6 @@ std::string absolute(const std::string& path) {
   return unknown ? path : full.lexically_normal().string();
 }
 
-std::string extension(const std::string& path) {
-  std::string e = std::filesystem::path(path).extension().string();
-  for (char& c : e) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return e;
-}
-
 Result<LoadedScene> from_picture(const std::string& path, const Result<ImageMetadata>& metadata) {
   if (!metadata) return metadata.error();
   if (metadata->scene_json.empty())
@@ -30,7 +25,7 @@ Result<LoadedScene> from_picture(const std::string& path, const Result<ImageMeta
   const std::string folder = std::filesystem::path(absolute(path)).parent_path().string();
   auto description = read_scene_text(metadata->scene_json, path, folder, scene_family());
   if (!description) return description.error();
-  return LoadedScene{std::move(*description), "", {"scene restored from the picture " + path}};
+  return LoadedScene{std::move(*description), path, "", {"scene restored from the picture " + path}};
 }
 
 template <class File> Result<ImageMetadata> metadata_of(const Result<File>& file) {
@@ -41,17 +36,26 @@ template <class File> Result<ImageMetadata> metadata_of(const Result<File>& file
 }  // namespace
 
 Result<LoadedScene> load_scene(const std::string& path, SceneCache& cache, const LoadOptions& options) {
-  const std::string kind = extension(path);
+  const std::string kind = lower_case_extension(path);
   if (kind == ".vdb" || kind == ".nvdb") {
     auto look = first_look(absolute(path), cache, options);
     if (!look) return look.error();
-    return LoadedScene{std::move(look->description), "", std::move(look->notes)};
+    return LoadedScene{std::move(look->description), path, "", std::move(look->notes)};
   }
   if (kind == ".exr") return from_picture(path, metadata_of(read_exr(path)));
   if (kind == ".png") return from_picture(path, metadata_of(read_png(path)));
   auto description = read_scene_file(path, scene_family());
   if (!description) return description.error();
-  return LoadedScene{std::move(*description), absolute(path), {}};
+  return LoadedScene{std::move(*description), path, absolute(path), {}};
+}
+
+Result<std::shared_ptr<const Scene>> commit_loaded(const LoadedScene& loaded, SceneCache& cache,
+                                                   const CommitOptions& options) {
+  auto scene = commit(loaded.description, cache, options);
+  if (scene) return scene;
+  Error error = scene.error();
+  if (error.source.file.empty()) error.source.file = loaded.file;
+  return error;
 }
 
 Result<void> write_picture(const std::string& path, const Picture& picture, const Node& description) {
@@ -65,7 +69,7 @@ Result<void> write_picture(const std::string& path, const Picture& picture, cons
   }
   metadata.scene_json = std::move(*scene_json);
   metadata.extra["samples_per_pixel"] = std::to_string(picture.statistics.samples_per_pixel);
-  const std::string kind = extension(path);
+  const std::string kind = lower_case_extension(path);
   if (kind == ".exr") return write_exr(path, picture.image, metadata);
   if (kind == ".png")
     return write_png(path, to_display(picture.image, display_settings(description.child("film"))), metadata);

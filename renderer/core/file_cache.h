@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "renderer/core/error.h"
 
@@ -15,12 +16,13 @@ namespace brume {
 /// while a file is being read waits for it.
 template <class T> class FileCache {
  public:
-  /// @param read  Result<std::shared_ptr<const T>>(path)
-  template <class Read> Result<std::shared_ptr<const T>> load(const std::string& path, const Read& read) {
+  /// @param read  Result<std::shared_ptr<const T>>(path).  @param part  of the file, where it holds several
+  template <class Read>
+  Result<std::shared_ptr<const T>> load(const std::string& path, const Read& read, const std::string& part = "") {
     const std::lock_guard lock(mutex_);
     std::error_code no_file;  // a missing file is reported by `read`, in better words
     const auto modified = std::filesystem::last_write_time(path, no_file).time_since_epoch().count();
-    Entry& entry = entries_[path];
+    Entry& entry = entries_[{path, part}];
     if (entry.value && entry.modified == modified) return entry.value;
     auto value = read(path);
     if (value) entry = {*value, modified};
@@ -39,7 +41,7 @@ template <class T> class FileCache {
     std::int64_t modified = 0;
   };
   std::mutex mutex_;
-  std::map<std::string, Entry> entries_;
+  std::map<std::pair<std::string, std::string>, Entry> entries_;
 };
 
 }  // namespace brume
