@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "tests/support/effort.h"
-#include "tests/support/reference_case.h"
+#include "tests/support/reference_probe.h"
 
 namespace brume {
 namespace {

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "tests/support/effort.h"
+#include "tests/support/reference_medium.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/statistics.h"
 

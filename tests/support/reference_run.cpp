@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "renderer/core/parallel.h"
+#include "tests/support/reference_medium.h"
 #include "tests/support/statistics.h"
 
 namespace brume {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/reference_case.h"
+#include "tests/support/reference_judge.h"
 
 namespace brume {
 
