@@ -1,62 +1,16 @@
 #include "renderer/lights/environment_map.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-#include <limits>
 #include <vector>
 
 #include "renderer/film/image_io.h"
 #include "renderer/lights/image_environment.h"
-#include "renderer/sampling/sampler.h"
 #include "tests/support/statistics.h"
+#include "tests/unit/lights/environment_pictures.h"
 
 namespace brume {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr double kPiD = 3.14159265358979323846;
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-Vec2 random_pair(std::uint32_t i, int index = 0) {
-  return Sampler(SamplerKind::Independent, 18, 7, i).u2(Decision::LightPoint, 0, index);
-}
-
-/// The picture's own description: (0.5, 0.5) is +x, v = 0 is +z, u = 0.75 is -y.
-Vec3 seen_at(double u, double v) {
-  const double azimuth = 2 * kPiD * (u - 0.5), theta = kPiD * v;
-  return Vec3(Vec3d(std::sin(theta) * std::cos(azimuth), -std::sin(theta) * std::sin(azimuth), std::cos(theta)));
-}
-
-struct Place {
-  double u, v;
-};
-Place place_of(Vec3 w) {
-  const double u = 0.5 + std::atan2(-double(w.y), double(w.x)) / (2 * kPiD);
-  return {u < 1 ? u : 0, std::atan2(std::hypot(double(w.x), double(w.y)), double(w.z)) / kPiD};
-}
-
-/// Per unit of (u, v) instead of per sr, so without the pole's 1/sin(theta).
-double per_place(double pdf_w, double v) { return pdf_w * 2 * kPiD * kPiD * std::sin(kPiD * v); }
-
-/// Colours of four decades with black pixels between them.
-Image patchy(int width, int height) {
-  Image picture(width, height);
-  for (std::uint32_t i = 0; i < picture.pixels.size(); ++i) {
-    const Vec2 a = random_pair(i, 8), b = random_pair(i, 9);
-    if (a.x > 0.4f) picture.pixels[i] = Color(a.x, a.y, b.x) * std::exp(9 * b.y);
-  }
-  return picture;
-}
-
-Image one_bright_pixel(int width, int height, int x, int y) {
-  Image picture(width, height);
-  picture.at(x, y) = {100, 200, 300};
-  return picture;
-}
 
 /// Each pixel's share of the light: mean of the interpolated luminance, by points of whose row and column half lie on
 /// either side of the middle, which is exact for a function that is bilinear in each quarter; times its solid angle.
@@ -337,171 +291,6 @@ TEST(EnvironmentMap, EndsOfTheUnitSquareAreFinite) {
         EXPECT_NEAR(length(s.direction), 1, 4e-7f);
         EXPECT_TRUE(std::isfinite(s.pdf_w) && s.pdf_w >= 0) << x << ", " << y << ": " << s.pdf_w;
       }
-}
-
-TEST(ImageEnvironment, TurnsCounterClockwiseSeenFromAbove) {
-  const auto map = std::make_shared<const EnvironmentMap>(patchy(24, 12));
-  for (const float degrees : {0.0f, 90.0f, -30.0f, 200.0f}) {
-    const float angle = degrees * kPi / 180;
-    const ImageEnvironment light(map, {2, 3, 4}, angle);
-    // What the picture has along +x is now at that angle from +x towards +y.
-    for (const float z : {0.0f, 0.7f, -0.4f}) {
-      const Vec3 turned = normalize(Vec3(std::cos(angle), std::sin(angle), z));
-      const Color seen = light.hit({{}, turned})->radiance, there = map->radiance(normalize(Vec3(1, 0, z)));
-      // Rounded by 3e-7 of the picture between values of up to 1e4 times this one.
-      for (int k = 0; k < 3; ++k) EXPECT_NEAR(seen[k], Color(2, 3, 4)[k] * there[k], 0.05f) << degrees << ", " << z;
-    }
-  }
-}
-
-TEST(ImageEnvironment, HitAgreesWithIncident) {
-  const auto map = std::make_shared<const EnvironmentMap>(patchy(24, 12));
-  const ImageEnvironment light(map, {2, 3, 4}, 1.1f);
-  for (std::uint32_t i = 0; i < 5000; ++i) {
-    const LightPoint point = light.sample_point(random_pair(i));
-    EXPECT_EQ(point.kind, LightPoint::Kind::Distant);
-    const IncidentLight in = light.incident(point, {1, 2, 3});
-    const auto hit = light.hit({{4, 5, 6}, point.direction});
-    ASSERT_TRUE(hit);
-    EXPECT_EQ(in.wi, point.direction);
-    EXPECT_EQ(in.distance, kInfinity);
-    EXPECT_EQ(hit->t, kInfinity);
-    EXPECT_EQ(hit->pdf_w, in.pdf_w);
-    ASSERT_GT(in.pdf_w, 0);
-    EXPECT_NEAR(in.irradiance.g * in.pdf_w, hit->radiance.g, 2e-6f * hit->radiance.g);
-    EXPECT_EQ(hit->point.kind, LightPoint::Kind::Distant);
-    EXPECT_EQ(hit->point.direction, point.direction);
-  }
-  EXPECT_FALSE(light.hit({{}, {1, 0, 0}, {0, 1e6f}})) << "infinitely far away";
-  EXPECT_EQ(light.environment_radiance(), Color()) << "not the same all around";
-  EXPECT_EQ(light.solid_angle({1, 2, 3}), map->solid_angle());
-}
-
-TEST(ImageEnvironment, BothEstimatesOfTheIrradianceAgree) {
-  // By sampled points, and by hits of directions that are uniform over (u, v), for a plane that sees half of the sky.
-  const double z = sidak_z(1e-3, 2);
-  const auto map = std::make_shared<const EnvironmentMap>(patchy(24, 12));
-  const Vec3 normal = normalize(Vec3(1, 1, 1));
-  for (const float angle : {0.0f, 2.5f}) {
-    const ImageEnvironment light(map, Color(1), angle);
-    RunningMean sampled, met;
-    for (std::uint32_t i = 0; i < 100000; ++i) {
-      const IncidentLight in = light.incident(light.sample_point(random_pair(i)), {});
-      sampled.add(double(in.irradiance.r * std::max(0.0f, dot(normal, in.wi))));
-      const Vec2 p = random_pair(i, 1);
-      const Vec3 w = seen_at(double(p.x), double(p.y));
-      met.add(per_place(double(light.hit({{}, w})->radiance.r * std::max(0.0f, dot(normal, w))), double(p.y)));
-    }
-    EXPECT_NEAR(sampled.mean(), met.mean(), z * std::hypot(sampled.standard_error(), met.standard_error()));
-    EXPECT_LT(sampled.standard_error(), met.standard_error()) << "in proportion to the light";
-  }
-}
-
-TEST(ImageEnvironment, ABlackPictureLightsNothing) {
-  const ImageEnvironment light(std::make_shared<const EnvironmentMap>(Image(4, 2)), Color(1), 0);
-  for (std::uint32_t i = 0; i < 100; ++i)
-    EXPECT_TRUE(is_black(light.incident(light.sample_point(random_pair(i)), {}).irradiance));
-}
-
-class EnvironmentMapFile : public testing::Test {
- protected:
-  void SetUp() override {
-    std::string pattern = testing::TempDir() + "brume_environment_XXXXXX";
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  std::string put(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path(name), std::ios::binary) << bytes;
-    return path(name);
-  }
-
-  fs::path folder_;
-};
-
-/// A Radiance picture's head for -Y height +X width: rows from the top, columns from the left.
-std::string hdr_head(int width, int height) {
-  return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " + std::to_string(width) + "\n";
-}
-
-std::string bytes(std::initializer_list<int> values) {
-  std::string out;
-  for (const int v : values) out += static_cast<char>(v);
-  return out;
-}
-
-TEST_F(EnvironmentMapFile, ExrIsReadAsItWasWritten) {
-  const Image picture = patchy(12, 6);
-  ASSERT_TRUE(write_exr(path("sky.exr"), picture).ok());
-  const auto map = EnvironmentMap::read(path("sky.exr"));
-  ASSERT_TRUE(map.ok()) << map.error().to_string();
-  EXPECT_EQ((*map)->width(), 12);
-  EXPECT_EQ((*map)->height(), 6);
-  const EnvironmentMap direct(picture);
-  for (std::uint32_t i = 0; i < 200; ++i) {
-    const auto s = direct.sample(random_pair(i));
-    EXPECT_EQ((*map)->radiance(s.direction), direct.radiance(s.direction));
-    EXPECT_EQ((*map)->pdf_w(s.direction), direct.pdf_w(s.direction));
-  }
-}
-
-TEST_F(EnvironmentMapFile, HdrOfPlainPixelsIsRead) {
-  // Shared exponent: mantissa * 2^(e - 136). The upper row first.
-  const std::string file = put("sky.hdr", hdr_head(3, 2) + bytes({128, 64, 32, 129, 255, 0, 0, 136, 0, 0, 0, 0}) +
-                                              bytes({128, 128, 128, 128, 1, 2, 3, 136, 200, 100, 50, 140}));
-  const auto map = EnvironmentMap::read(file);
-  ASSERT_TRUE(map.ok()) << map.error().to_string();
-  EXPECT_EQ((*map)->width(), 3);
-  EXPECT_EQ((*map)->height(), 2);
-  EXPECT_EQ((*map)->mended(), 0u);
-  const Color expected[2][3] = {{{1, 0.5f, 0.25f}, {255, 0, 0}, {0, 0, 0}},
-                                {{0.5f, 0.5f, 0.5f}, {1, 2, 3}, {3200, 1600, 800}}};
-  for (int y = 0; y < 2; ++y)
-    for (int x = 0; x < 3; ++x) {
-      const Color c = (*map)->radiance(seen_at((x + 0.5) / 3, (y + 0.5) / 2));
-      // Places are rounded by 3e-7 of a pixel, between values of up to 3200.
-      for (int k = 0; k < 3; ++k) EXPECT_NEAR(c[k], expected[y][x][k], 5e-3f) << x << ", " << y;
-    }
-}
-
-TEST_F(EnvironmentMapFile, HdrOfRunLengthsIsReadWhateverTheCaseOfItsName) {
-  // New run lengths, from a width of 8 on: 2, 2, width, then each channel: 128 + n and the byte of n equal ones.
-  const std::string row = bytes({2, 2, 0, 8, 128 + 8, 128, 128 + 8, 64, 4, 32, 32, 0, 0, 128 + 4, 0, 128 + 8, 130});
-  const auto map = EnvironmentMap::read(put("SKY.HDR", hdr_head(8, 1) + row));
-  ASSERT_TRUE(map.ok()) << map.error().to_string();
-  EXPECT_EQ((*map)->width(), 8);
-  const Color left = (*map)->radiance(seen_at(1.5 / 8, 0.5)), right = (*map)->radiance(seen_at(6.5 / 8, 0.5));
-  EXPECT_NEAR(left.r, 2, 1e-5f);
-  EXPECT_NEAR(left.g, 1, 1e-5f);
-  EXPECT_NEAR(left.b, 0.5, 1e-5f);
-  EXPECT_NEAR(right.r, 2, 1e-5f);
-  EXPECT_NEAR(right.b, 0, 1e-5f);
-}
-
-TEST_F(EnvironmentMapFile, WhatIsNotAPictureIsRefusedByItsName) {
-  fs::create_directory(path("folder.hdr"));
-  for (const std::string& file :
-       {path("missing.exr"), path("missing.hdr"), put("text.hdr", "Dear reader,\nthis is no picture.\n"),
-        put("text.exr", "nor is this\n"), put("empty.hdr", ""), path("folder.hdr"),
-        put("huge.hdr", hdr_head(100000, 100000)), put("sky.png", "\x89PNG"), put("sky", hdr_head(1, 1) + "abcd")}) {
-    const auto map = EnvironmentMap::read(file);
-    ASSERT_FALSE(map.ok()) << file;
-    EXPECT_EQ(map.error().code, ErrorCode::BadInput) << file;
-    EXPECT_EQ(map.error().source.file, file);
-    EXPECT_FALSE(map.error().message.empty()) << file;
-    EXPECT_EQ(map.error().message.find('\n'), std::string::npos) << "one sentence: " << map.error().message;
-  }
-  EXPECT_NE(EnvironmentMap::read(path("sky.png")).error().message.find(".png"), std::string::npos);
-  EXPECT_NE(EnvironmentMap::read(path("text.hdr")).error().message.find("Radiance"), std::string::npos);
-}
-
-TEST_F(EnvironmentMapFile, ACutOffHdrIsRefused) {
-  const std::string flat = hdr_head(3, 2) + bytes({128, 64, 32, 129, 255, 0, 0, 136, 0, 0, 0, 0, 9, 9, 9, 130});
-  ASSERT_FALSE(EnvironmentMap::read(put("flat.hdr", flat)).ok()) << "two pixels are missing";
-  // Here stb_image 2.27 takes the zeros that it reads beyond the end for empty runs and loops for ever.
-  const std::string runs = hdr_head(8, 2) + bytes({2, 2, 0, 8, 128 + 8, 128, 128 + 8, 64, 128 + 8});
-  EXPECT_FALSE(EnvironmentMap::read(put("runs.hdr", runs)).ok()) << "most of the picture is missing";
 }
 
 }  // namespace
