@@ -1,14 +1,11 @@
 #include "renderer/media/brick_grid.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <mutex>
 #include <unordered_map>
 
 #include "renderer/core/check.h"
@@ -105,44 +102,9 @@ LeafSummary mend_and_summarise(LeafBlock& leaf, const VoxelBox& box) {
   return s;
 }
 
-std::string gigabytes(std::uint64_t bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f GB", static_cast<double>(bytes) * 1e-9);
-  return text;
-}
-
-/// Runs body(i) for i in [0, n) in chunks; reports progress from `from` to `to`; false when cancelled.
-bool chunked(std::int64_t n, const LoadOptions& options, float from, float to,
-             const std::function<void(std::int64_t)>& body) {
-  constexpr std::int64_t kChunk = 256;  // bricks: about 100 microseconds
-  const int chunks = static_cast<int>((n + kChunk - 1) / kChunk);
-  std::mutex mutex;
-  int done = 0;
-  parallel_for(chunks, [&](int c) {
-    if (options.cancel.stop_requested()) return;
-    for (std::int64_t i = c * kChunk; i < std::min(n, (c + 1) * kChunk); ++i) body(i);
-    if (!options.progress) return;
-    const std::lock_guard lock(mutex);
-    ++done;
-    options.progress(from + (to - from) * static_cast<float>(done) / static_cast<float>(chunks));
-  });
-  return !options.cancel.stop_requested();
-}
-
-Error cancelled() { return {ErrorCode::Cancelled, "loading was cancelled"}; }
+struct TilesOverlap {};
 
 }  // namespace
-
-Result<void> check_memory(std::uint64_t bytes) {
-  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
-  if (pages <= 0 || page <= 0) return {};
-  const std::uint64_t machine = static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page);
-  if (bytes <= machine) return {};
-  return bad_input("the grid needs " + gigabytes(bytes) + " of memory, but the machine has " + gigabytes(machine) +
-                   "; crop it or halve its resolution");
-}
-
-struct TilesOverlap {};
 
 /// Builds one BrickGrid. The table is filled with what lies in each 8^3 block ("content"), then turned in place into
 /// brick numbers, noting for every brick that needs storage the eight contents it is put together from.
@@ -152,14 +114,14 @@ class BrickBuilder {
 
   Result<BrickGrid> build() {
     if (auto sized = find_extent(); !sized) return sized.error();
-    if (!mend_leaves()) return cancelled();
+    if (!mend_leaves()) return loading_cancelled();
     fill_table();
     number_bricks();
-    if (options_.cancel.stop_requested()) return cancelled();
+    if (options_.cancel.stop_requested()) return loading_cancelled();
     if (auto enough = check_memory(blocks_.leaves.size() * sizeof(LeafBlock) + grid_.table_.size() * 4 + value_bytes());
         !enough)
       return enough.error();
-    if (!fill_values()) return cancelled();
+    if (!fill_values()) return loading_cancelled();
     return std::move(grid_);
   }
 
@@ -228,7 +190,7 @@ class BrickBuilder {
 
     summaries_.resize(blocks_.leaves.size());
     const auto leaves = static_cast<std::int64_t>(blocks_.leaves.size());
-    const bool finished = chunked(leaves, options_, 0.0f, 0.4f, [&](std::int64_t i) {
+    const bool finished = parallel_load(leaves, options_, 0.0f, 0.4f, [&](std::int64_t i) {
       summaries_[static_cast<std::size_t>(i)] =
           mend_and_summarise(blocks_.leaves[static_cast<std::size_t>(i)], active_);
     });
@@ -364,7 +326,7 @@ class BrickBuilder {
     grid_.values_.reset(static_cast<float*>(::operator new(value_bytes(), std::align_val_t(64))));
     std::fill_n(grid_.values_.get(), BrickGrid::kBrickFloats, 0.0f);
     grid_.brick_max_.resize(stored_.size() + 1);
-    return chunked(static_cast<std::int64_t>(stored_.size()), options_, 0.4f, 1.0f, [&](std::int64_t i) {
+    return parallel_load(static_cast<std::int64_t>(stored_.size()), options_, 0.4f, 1.0f, [&](std::int64_t i) {
       float* brick = grid_.values_.get() + (i + 1) * BrickGrid::kBrickFloats;
       fill(stored_[static_cast<std::size_t>(i)], brick);
       constexpr int kVoxelsOfBrick = BrickGrid::kCorners * BrickGrid::kCorners * BrickGrid::kCorners;

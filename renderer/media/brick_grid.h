@@ -11,19 +11,12 @@
 
 #include "renderer/core/bounds.h"
 #include "renderer/core/error.h"
+#include "renderer/media/load_options.h"
 
 namespace brume {
 
 /// Integer index-space coordinates. Voxel i is centred at index i (OpenVDB's convention), so it covers [i-1/2, i+1/2].
 using VoxelIndex = Vec3T<int>;
-
-/// How a long load reports and is stopped.
-struct LoadOptions {
-  /// Called now and then with a number that grows from 0 to 1, from any thread but never from two at once.
-  std::function<void(float)> progress = {};
-  /// When stop is requested, the work is given up soon and returns ErrorCode::Cancelled.
-  std::stop_token cancel = {};
-};
 
 /// 8x8x8 voxels as they lie in a tree. Voxel (x,y,z) of the block is element (x * 8 + y) * 8 + z.
 struct LeafBlock {
@@ -112,9 +105,5 @@ class BrickGrid {
 /// ones are 0. Errors: no active voxel; active voxels so far apart that the table would exceed kMaxTableEntries or
 /// kMaxExtent; more memory needed than the machine has; cancelled.
 Result<BrickGrid> build_brick_grid(VoxelBlocks blocks, const LoadOptions& options = {});
-
-/// An error when `bytes` is more than the machine's physical memory; asked before memory is taken, for Linux grants
-/// more than there is and later ends the program.
-Result<void> check_memory(std::uint64_t bytes);
 
 }  // namespace brume

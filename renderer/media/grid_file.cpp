@@ -40,13 +40,7 @@ std::string in_quotes(const std::string& text) { return "\"" + text + "\""; }
 void refuse(std::string message) { throw FileProblem{bad_input(std::move(message))}; }
 
 void stop_if_cancelled(const LoadOptions& options) {
-  if (options.cancel.stop_requested()) throw FileProblem{{ErrorCode::Cancelled, "loading was cancelled"}};
-}
-
-LoadOptions part_of(const LoadOptions& options, float from, float to) {
-  LoadOptions part{{}, options.cancel};
-  if (options.progress) part.progress = [&options, from, to](float p) { options.progress(from + (to - from) * p); };
-  return part;
+  if (options.cancel.stop_requested()) throw FileProblem{loading_cancelled()};
 }
 
 InputFile::InputFile(const std::string& path) : path_(path) {

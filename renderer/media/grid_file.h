@@ -23,8 +23,6 @@ std::string clamped(std::string text);
 std::string name_of(const GridInfo& grid, const std::string& path);
 [[noreturn]] void refuse(std::string message);
 void stop_if_cancelled(const LoadOptions& options);
-/// The same options, with progress running over [from, to] only. Refers to `options`.
-LoadOptions part_of(const LoadOptions& options, float from, float to);
 
 /// Runs f() and turns whatever it throws into an error that names the file.
 template <class F> auto guard_file(const std::string& path, const F& f) -> decltype(f()) {
