@@ -10,7 +10,7 @@
 #include "app/cli/progress_line.h"
 #include "app/cli/render_report.h"
 #include "renderer/core/atomic_file.h"
-#include "renderer/engine/first_look.h"
+#include "renderer/engine/black_picture.h"
 
 namespace brume {
 namespace {

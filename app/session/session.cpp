@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "app/session/load_scene.h"
-#include "renderer/engine/first_look.h"
+#include "renderer/engine/black_picture.h"
 #include "renderer/film/display_transform.h"
 #include "renderer/film/image_io.h"
 #include "renderer/integrators/registry.h"

@@ -1,48 +1,16 @@
 #include "renderer/engine/first_look.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "renderer/core/check.h"
+#include "renderer/engine/survey.h"
 #include "renderer/integrators/registry.h"
 #include "renderer/lights/registry.h"
-#include "renderer/march/shadow_march.h"
 #include "renderer/scene/framing.h"
 #include "renderer/scene/volume.h"
 
 namespace brume {
 namespace {
-
-/// Optical depths (mean of the channels) of a grid of camera rays, 0 for those that miss every medium.
-std::vector<float> optical_depths(const Scene& scene, int columns, int rows) {
-  std::vector<float> depths;
-  Arena arena;
-  MarchCounts counts;
-  const float aspect = static_cast<float>(scene.film.width) / static_cast<float>(scene.film.height);
-  for (int y = 0; y < rows; ++y)
-    for (int x = 0; x < columns; ++x) {
-      const Ray ray = scene.camera.ray((static_cast<float>(x) + 0.5f) / static_cast<float>(columns),
-                                       (static_cast<float>(y) + 0.5f) / static_cast<float>(rows), aspect);
-      const ArenaScope scope(arena);
-      const auto tau =
-          shadow_optical_depth<3>(scene.media, ray, {scene.step_size, 0.5f, scene.render.time}, arena, counts);
-      depths.push_back((tau[0] + tau[1] + tau[2]) / 3);
-    }
-  return depths;
-}
-
-/// Two significant digits: a value that people can read and change.
-double two_digits(double v) {
-  if (!(v > 0)) return v;
-  const double unit = std::pow(10.0, std::floor(std::log10(v)) - 1);
-  return std::round(v / unit) * unit;
-}
-
-std::string short_number(double v) {
-  char text[32];
-  std::snprintf(text, sizeof text, v >= 1000 && v < 1e9 ? "%.0f" : "%.3g", v);
-  return text;
-}
 
 void must(const Result<void>& done) {
   if (!done) BRUME_CHECK(done.error().to_string(), ==, "no error");
@@ -136,34 +104,6 @@ Result<FirstLook> first_look(const std::string& path, SceneCache& cache, const L
                          " so that most of it has an optical depth below 4");
   }
   return look;
-}
-
-std::optional<std::string> explain_black(const Scene& scene, const Picture& picture) {
-  float brightest = 0;
-  for (const Color& c : picture.image.pixels) brightest = std::max(brightest, max_channel(c));
-  if (brightest > 1e-3f) return std::nullopt;
-
-  if (scene.media.empty()) return "There is no volume that is switched on: add one, or drop a .vdb file here.";
-  if (scene.lights.empty() && !scene.needs.emission)
-    return "No light is switched on and nothing glows: add a light, or raise emission_scale.";
-  const std::vector<float> depths = optical_depths(scene, 32, 32);
-  const float deepest = *std::max_element(depths.begin(), depths.end());
-  if (deepest == 0) {
-    float density = 0;
-    for (const Medium& m : scene.media) density = std::max(density, max_channel(m.sigma_t));
-    if (density == 0) return "The density scale is 0: raise density_scale.";
-    return "The camera sees no volume: press F to frame everything.";
-  }
-  if (deepest < 0.05f) {
-    const float middle = depths[depths.size() / 2 + 16];
-    return "The optical depth through the middle is " + short_number(middle) + " and nowhere above " +
-           short_number(deepest) + ": raise density_scale by about " + short_number(two_digits(4 / deepest)) +
-           " times.";
-  }
-  const bool scatters =
-      std::any_of(scene.media.begin(), scene.media.end(), [](const Medium& m) { return !is_black(m.sigma_s); });
-  if (!scatters && !scene.needs.emission) return "The medium absorbs everything: raise its albedo.";
-  return "The brightest value is " + short_number(brightest) + ": raise the exposure or the lights.";
 }
 
 }  // namespace brume

@@ -1,7 +1,5 @@
-// What to show when somebody drops a bare grid file on the window, and plain words when the picture is black.
+// What to show when somebody drops a bare grid file on the window.
 #pragma once
-
-#include <optional>
 
 #include "renderer/engine/engine.h"
 #include "renderer/params/node.h"
@@ -21,8 +19,5 @@ Result<FirstLook> first_look(const std::string& path, SceneCache& cache, const L
 /// The scale that brings the 90th percentile of the optical depth to `target`, over rays of the scene's camera that
 /// meet medium; 0 when none does. @param scene  with the density scale that the result multiplies
 double density_scale_for(const Scene& scene, double target);
-
-/// One sentence that says why there is nothing to see and what to do; nothing when there is something.
-std::optional<std::string> explain_black(const Scene& scene, const Picture& picture);
 
 }  // namespace brume

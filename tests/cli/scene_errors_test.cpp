@@ -93,6 +93,16 @@ TEST_F(SceneErrors, SurfacesThatCannotBe) {
                          "surfaces.m.transform.scale");
 }
 
+TEST_F(SceneErrors, ALampInsideABallIsExplained) {
+  put_file(path("ball.json"), R"({ "brume": 1, "film": {"resolution": [8, 6]},
+    "surfaces": [{"type": "sphere", "center": [0, 0, 3], "radius": 0.3}],
+    "lights": [{"type": "point", "position": [0, 0, 3]}],
+    "volumes": [{"shader": "homogeneous"}] })");
+  const Outcome o = run({"render", "ball.json", "-o", "a.png", "--spp", "1"});
+  EXPECT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_TRUE(o.error_says("Surfaces keep all light away")) << o.err;
+}
+
 TEST_F(SceneErrors, ASceneOfAllOfThemIsRendered) {
   put_file(path("t.obj"), kTriangle);
   put_file(path("good.json"), R"({ "brume": 1, "film": {"resolution": [8, 6]},
