@@ -5,6 +5,10 @@
 
 cmake_minimum_required(VERSION 3.25)  # CTest starts without policies
 
+if("$ENV{BRUME_TEST_FULL}" STREQUAL "1")
+  math(EXPR timeout "12 * ${timeout}")  # the references alone take an hour and a half of two cores
+endif()
+
 # brume_register(<test name> <label> <command>...)
 macro(brume_register test label)
   add_test("${test}" ${ARGN})
