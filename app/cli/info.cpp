@@ -1,7 +1,5 @@
 #include "app/cli/info.h"
 
-#include <filesystem>
-
 #include "app/cli/console.h"
 #include "app/cli/grid_info.h"
 #include "app/cli/scene_info.h"
@@ -24,7 +22,7 @@ Result<std::string> describe(const InfoOptions& options) {
   SceneCache cache;
   const auto loaded = load_scene(options.file, cache, {});
   if (!loaded) return loaded.error();
-  const auto info = examine_scene(options.file, *loaded, cache);
+  const auto info = examine_scene(*loaded, cache);
   if (!info) return info.error();
   return options.json ? scene_as_json(*info) : scene_as_text(*info);
 }

@@ -71,10 +71,10 @@ Json needs_json(const SceneNeeds& n) {
 
 }  // namespace
 
-Result<SceneInfo> examine_scene(const std::string& file, const LoadedScene& loaded, SceneCache& cache) {
+Result<SceneInfo> examine_scene(const LoadedScene& loaded, SceneCache& cache) {
   const auto scene = commit_loaded(loaded, cache);
   if (!scene) return scene.error();
-  SceneInfo info{file, loaded, *scene, {}};
+  SceneInfo info{loaded, *scene, {}};
   for (const Node& volume : loaded.description.list("volumes")) {
     Bounds3 bounds;
     if (volume.flag("enabled"))
@@ -87,7 +87,7 @@ Result<SceneInfo> examine_scene(const std::string& file, const LoadedScene& load
 std::string scene_as_text(const SceneInfo& info) {
   const Node& d = info.loaded.description;
   const Scene& scene = *info.scene;
-  std::string text = info.file + "\n\n";
+  std::string text = info.loaded.file + "\n\n";
   Rows rows{{"camera", values_text(d.child("camera"), Values::All)},
             {"film", values_text(d.child("film"), Values::All)},
             {"render", scene.render.integrator + "; " + values_text(d.child("render"), Values::Changed)},
@@ -121,7 +121,7 @@ std::string scene_as_text(const SceneInfo& info) {
 std::string scene_as_json(const SceneInfo& info) {
   const Scene& scene = *info.scene;
   Json json;
-  json["file"] = info.file;
+  json["file"] = info.loaded.file;
   json["description"] =
       Json::parse(write_node(info.loaded.description, scene_family(), {.target_dir = "", .all = true}));
   Json& resolved = json["resolved"];

@@ -10,14 +10,13 @@
 namespace brume {
 
 struct SceneInfo {
-  std::string file;
   LoadedScene loaded;
   std::shared_ptr<const Scene> scene;
   std::vector<Bounds3> volume_bounds;  ///< world space, of the description's volumes; empty where one is switched off
 };
 
 /// Reads the grids of the scene, too. Errors are those of committing it.
-Result<SceneInfo> examine_scene(const std::string& file, const LoadedScene& loaded, SceneCache& cache);
+Result<SceneInfo> examine_scene(const LoadedScene& loaded, SceneCache& cache);
 
 std::string scene_as_text(const SceneInfo& info);
 std::string scene_as_json(const SceneInfo& info);

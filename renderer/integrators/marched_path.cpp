@@ -29,9 +29,7 @@ template <int C>
 Color marched_reflection(const MarchRecord<C>& record, const SurfaceHit& surface, int bounce, int place,
                          SampleContext& context) {
   return to_color(transmittance(record)) *
-         light_at_surface<C>(surface, bounce, place, context, [&](const Light&, const Ray& shadow, int index) {
-           return to_color(marched_shadow<C>(shadow, bounce, index, context));
-         });
+         light_at_surface<C>(surface, bounce, place, context, shadow_by_marching<C>(bounce, context));
 }
 
 template <int C> void diagnose(const MarchRecord<C>& record, RayDiagnostics& out) {
@@ -68,9 +66,10 @@ bool scatter(const MarchRecord<C>& record, const std::optional<SurfaceHit>& surf
              SampleContext& context) {
   const float scattered = record.empty() ? 0 : record.scattered();
   const Spectrum<C> behind = surface ? transmittance(record) : Spectrum<C>{};
+  const Spectrum<C> weights = channel_weights<C>(beta);
   float reflected = 0;
   if (surface)
-    for (int c = 0; c < C; ++c) reflected += channel_weights<C>(beta)[c] * behind[c] * surface->albedo[c];
+    for (int c = 0; c < C; ++c) reflected += weights[c] * behind[c] * surface->albedo[c];
   const float total = scattered + reflected;
   if (!(total > 0)) return false;
 

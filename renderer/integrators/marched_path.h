@@ -13,6 +13,13 @@ template <int C> MarchRecord<C> record_ray(const Ray& ray, const MarchSettings& 
 /// @param index  of its light sample, for the random offset
 template <int C> Spectrum<C> marched_shadow(const Ray& shadow, int bounce, int index, SampleContext& context);
 
+/// For light_at_point(): transmittance towards a light by marched_shadow().
+template <int C> auto shadow_by_marching(int bounce, SampleContext& context) {
+  return [bounce, &context](const Light&, const Ray& shadow, int index) {
+    return to_color(marched_shadow<C>(shadow, bounce, index, context));
+  };
+}
+
 /// Transmittance from the ray's origin to t, read off the record.
 template <int C> Spectrum<C> transmittance_to(const MarchRecord<C>& record, float t);
 

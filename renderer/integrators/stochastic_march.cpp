@@ -57,7 +57,7 @@ template <int C> struct Marching {
     const Vec3 x = ray.at(t);
     const PhaseMixture<C> phase(scene, ray.direction, rec, i, context.arena);
     radiance += value * (1.0f / static_cast<float>(samples())) *
-                light_at_point<C>(x, phase, bounce, k, 1, context, shadow_march());
+                light_at_point<C>(x, phase, bounce, k, 1, context, shadow_by_marching<C>(bounce, context));
     if (k == chosen) go_on(x, phase, value, tracked, pdf);
   }
 
@@ -76,7 +76,7 @@ template <int C> struct Marching {
     value *= 1 / pdf;
     const int n = samples();
     radiance += value * (static_cast<float>(n - k) / static_cast<float>(n)) *
-                light_at_surface<C>(surface, bounce, n, context, shadow_march());
+                light_at_surface<C>(surface, bounce, n, context, shadow_by_marching<C>(bounce, context));
     if (chosen >= k) go_on(surface.position, DiffuseReflection<C>(surface.normal, surface.albedo), value, tracked, pdf);
   }
 
@@ -86,12 +86,6 @@ template <int C> struct Marching {
     next = {x, scattered.direction};
     next_beta = value * to_color(scattered.weight);
     for (int c = 0; c < C; ++c) next_p[c] = tracked[c] / pdf;
-  }
-
-  auto shadow_march() {
-    return [this](const Light&, const Ray& shadow, int index) {
-      return to_color(marched_shadow<C>(shadow, bounce, index, context));
-    };
   }
 
   int samples() const { return context.scene.render.light_samples; }
