@@ -158,7 +158,6 @@ Result<ExitCode> run_render(const RenderOptions& options) {
                               statistics,
                               noise,
                               load_seconds,
-                              grid_memory_bytes(loaded->description, cache.grids),
                               interrupted};
     if (auto done = write_text_atomically(options.statistics_file, format_report(report)); !done) return done.error();
   }

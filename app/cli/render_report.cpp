@@ -1,11 +1,19 @@
 #include "app/cli/render_report.h"
 
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "renderer/core/simd.h"
 
 namespace brume {
+namespace {
+
+std::size_t grid_bytes(const Scene& scene) {
+  std::size_t bytes = 0;
+  for (const Medium& medium : scene.media) bytes += medium.shader->memory_bytes();
+  return bytes;
+}
+
+}  // namespace
 
 std::string format_report(const RenderReport& report) {
   const RenderStatistics& s = report.statistics;
@@ -32,7 +40,7 @@ std::string format_report(const RenderReport& report) {
   json["lookups"] = s.rays.march.lookups;
   json["segments"] = s.rays.march.segments;
   json["pool_high_water_bytes"] = s.pool_high_water_bytes;
-  json["grid_bytes"] = report.grid_bytes;
+  json["grid_bytes"] = grid_bytes(report.scene);
 
   json["non_finite_samples"] = s.rays.non_finite;
   json["capped_rays"] = s.rays.march.capped;
@@ -44,20 +52,6 @@ std::string format_report(const RenderReport& report) {
   json["warnings"] = report.scene.warnings;
   // Names of files need not be UTF-8, and JSON must be.
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
-std::size_t grid_memory_bytes(const Node& description, GridCache& grids) {
-  std::set<std::pair<std::string, std::string>> names;
-  for (const Node& volume : description.list("volumes")) {
-    if (!volume.flag("enabled")) continue;
-    for (const Param& p : volume.table().params)
-      if (p.type == ParamType::Grid && !volume.text(p.key).empty())
-        names.emplace(volume.text("file"), volume.text(p.key));
-  }
-  std::size_t bytes = 0;
-  for (const auto& [file, grid] : names)
-    if (const auto loaded = grids.load(file, grid, {})) bytes += (*loaded)->grid->memory_bytes();
-  return bytes;
 }
 
 }  // namespace brume

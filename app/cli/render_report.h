@@ -13,14 +13,10 @@ struct RenderReport {
   const RenderStatistics& statistics;
   double noise = 0;         ///< as Film::noise_estimate()
   double load_seconds = 0;  ///< before the first sample: reading files, building grids
-  std::size_t grid_bytes = 0;
   bool interrupted = false;  ///< fewer samples than asked for
 };
 
 /// A JSON object. Times in seconds, lengths in world units, counts over the whole picture.
 std::string format_report(const RenderReport& report);
-
-/// Memory of all voxel grids that the description names; they are in the cache.
-std::size_t grid_memory_bytes(const Node& description, GridCache& grids);
 
 }  // namespace brume

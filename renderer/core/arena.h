@@ -1,6 +1,7 @@
 // The per-thread stack pool in which a ray's temporary arrays live.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <memory>
@@ -47,9 +48,30 @@ class Arena {
     int depth;
   };
 
-  std::byte* alloc_bytes(std::size_t n);
+  std::byte* alloc_bytes(std::size_t n) {
+    n = (n + kAlignment - 1) / kAlignment * kAlignment;
+    if (blocks_[block_].size - top_ < n) return alloc_in_next_block(n);
+    std::byte* p = blocks_[block_].bytes.get() + top_;
+    top_ += n;
+    high_water_ = std::max(high_water_, used_bytes());
+    poison(p, n);
+    return p;
+  }
+  std::byte* alloc_in_next_block(std::size_t n);
+  static void poison([[maybe_unused]] std::byte* p, [[maybe_unused]] std::size_t n) {
+#ifndef NDEBUG
+    std::memset(p, 0xCD, n);
+#endif
+  }
   void add_block(std::size_t size);
-  void rewind(const Mark& mark);
+  void rewind(const Mark& mark) {
+    BRUME_DCHECK(mark.depth, ==, depth_);
+    if (block_ == mark.block) poison(blocks_[block_].bytes.get() + mark.top, top_ - mark.top);
+    block_ = mark.block;
+    top_ = mark.top;
+    used_before_ = mark.used_before;
+    --depth_;
+  }
 
   std::vector<Block> blocks_;
   std::size_t block_ = 0;        // the block in use

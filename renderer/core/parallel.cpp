@@ -1,5 +1,7 @@
 #include "renderer/core/parallel.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <atomic>
 #include <thread>
@@ -8,6 +10,11 @@
 namespace brume {
 
 int hardware_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+std::size_t last_cache_bytes() {
+  const long bytes = sysconf(_SC_LEVEL3_CACHE_SIZE);
+  return bytes > 0 ? static_cast<std::size_t>(bytes) : std::size_t{16} << 20;
+}
 
 // Plain threads rather than TBB: the loops are few and coarse (converting a grid), and the thread sanitizer sees
 // through std::thread but not through an uninstrumented libtbb.

@@ -1,6 +1,7 @@
 // The one place where a loop is spread over threads (outside the engine's own workers).
 #pragma once
 
+#include <cstddef>
 #include <functional>
 
 namespace brume {
@@ -11,5 +12,8 @@ void parallel_for(int n, const std::function<void(int)>& body);
 
 /// Threads the machine offers; at least 1.
 int hardware_threads();
+
+/// Size of the cache before memory; 16 MiB where the machine does not tell.
+std::size_t last_cache_bytes();
 
 }  // namespace brume

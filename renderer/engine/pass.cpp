@@ -30,11 +30,10 @@ bool for_each_pixel(const Grid& grid, WorkerPool& pool, const Cancelled& cancell
   return !stopped;
 }
 
-/// Sample number `sample` of the pixel (x, y) of a picture of width x height.
+/// The pass's sample of the pixel (x, y) of a picture of width x height.
 Color sample_pixel(const Scene& scene, const Integrator& integrator, const Grid& grid, int x, int y,
-                   std::uint32_t sample, Worker& worker) {
-  const auto pixel = static_cast<std::uint32_t>(y * grid.width + x);
-  const Sampler sampler(scene.render.sampler, scene.render.seed, pixel, sample);
+                   const Sampler& pass, Worker& worker) {
+  const Sampler sampler = pass.of_pixel(static_cast<std::uint32_t>(y * grid.width + x));
   const Vec2 inside = sampler.u2(Decision::Pixel);
   const float width = static_cast<float>(grid.width), height = static_cast<float>(grid.height);
   const Ray ray = scene.camera.ray((static_cast<float>(x) + inside.x) / width,
@@ -48,8 +47,9 @@ Color sample_pixel(const Scene& scene, const Integrator& integrator, const Grid&
 bool render_pass(const Scene& scene, const Integrator& integrator, std::uint32_t sample, Film& film, WorkerPool& pool,
                  const Cancelled& cancelled) {
   const Grid grid{film.width(), film.height()};
+  const Sampler pass(scene.render.sampler, scene.render.seed, 0, sample);
   return for_each_pixel(grid, pool, cancelled, [&](int x, int y, Worker& worker) {
-    if (!film.add_sample(x, y, sample_pixel(scene, integrator, grid, x, y, sample, worker)))
+    if (!film.add_sample(x, y, sample_pixel(scene, integrator, grid, x, y, pass, worker)))
       ++worker.statistics.non_finite;
   });
 }
@@ -57,9 +57,10 @@ bool render_pass(const Scene& scene, const Integrator& integrator, std::uint32_t
 bool render_coarse(const Scene& scene, const Integrator& integrator, int width, int height, int divisor, Image& image,
                    WorkerPool& pool, const Cancelled& cancelled) {
   const Grid grid{(width + divisor - 1) / divisor, (height + divisor - 1) / divisor};
+  const Sampler pass(scene.render.sampler, scene.render.seed, 0, 0);
   image = Image(grid.width, grid.height);
   return for_each_pixel(grid, pool, cancelled, [&](int x, int y, Worker& worker) {
-    const Color c = sample_pixel(scene, integrator, grid, x, y, 0, worker);
+    const Color c = sample_pixel(scene, integrator, grid, x, y, pass, worker);
     if (is_finite(c))
       image.at(x, y) = c;
     else

@@ -27,7 +27,7 @@ std::span<const Interval> BoxShape::intervals(const Ray& ray, Arena& arena) cons
       if (o < low_[axis] || o > high_[axis]) return {};
       continue;
     }
-    const double t0 = (low_[axis] - o) / d, t1 = (high_[axis] - o) / d;
+    const double inverse = 1 / d, t0 = (low_[axis] - o) * inverse, t1 = (high_[axis] - o) * inverse;
     begin = std::max(begin, std::min(t0, t1));
     end = std::min(end, std::max(t0, t1));
   }

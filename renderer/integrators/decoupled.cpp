@@ -34,11 +34,13 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
     }
 
     // estimate
+    MarchedShadows<C> shadows(context);
     if (!rec.empty()) {
       radiance += beta * emitted_radiance(rec);
-      if (rec.scattered() > 0) radiance += direct_light(rec, ray, beta, bounce, context);
+      if (rec.scattered() > 0) direct_light(rec, ray, beta, bounce, context, shadows);
     }
-    if (surface) radiance += beta * marched_reflection(rec, *surface, bounce, 1, context);
+    if (surface) light_at_surface<C>(*surface, beta * to_color(transmittance(rec)), bounce, 1, context, shadows);
+    radiance += shadows.light();
 
     // bounce
     if (bounce == scene.render.bounces) return radiance;

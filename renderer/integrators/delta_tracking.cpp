@@ -30,7 +30,7 @@ template <int C> Color trace(Ray ray, int c, SampleContext& context) {
       radiance += at->emission * (beta / at->majorant);
       if (sampler.u1(Decision::RealCollision, bounce, j) * at->majorant < at->sigma_t[c]) real = at;
     }
-    const auto shadow = shadow_by_tracking<C>(bounce, context);
+    TrackedShadows<C> shadows(bounce, context);
     // Goes on from x; false when the path ends.
     const auto turn = [&](Vec3 x, const auto& scatterer) {
       if (bounce == scene.render.bounces) return false;
@@ -45,11 +45,13 @@ template <int C> Color trace(Ray ray, int c, SampleContext& context) {
       if (beta == 0) return radiance;
       const Vec3 x = ray.at(real->t);
       const PhaseMixture<C> phase(scene, ray.direction, real->densities);
-      radiance += beta * light_at_point<C>(x, phase, bounce, 0, scene.render.light_samples, context, shadow);
+      light_at_point<C>(x, phase, Color(beta), bounce, 0, scene.render.light_samples, context, shadows);
+      radiance += shadows.light();
       if (!turn(x, phase)) return radiance;
     } else {
       if (!surface) return radiance;
-      radiance += beta * light_at_surface<C>(*surface, bounce, 0, context, shadow);
+      light_at_surface<C>(*surface, Color(beta), bounce, 0, context, shadows);
+      radiance += shadows.light();
       if (!turn(surface->position, DiffuseReflection<C>(surface->normal, surface->albedo))) return radiance;
     }
     surface = close(ray, scene);

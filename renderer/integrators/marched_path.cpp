@@ -3,7 +3,6 @@
 #include "renderer/integrators/path.h"
 #include "renderer/integrators/scatter_direction.h"
 #include "renderer/march/distribute.h"
-#include "renderer/march/shadow_march.h"
 
 namespace brume {
 
@@ -13,23 +12,9 @@ template <int C> MarchRecord<C> record_ray(const Ray& ray, const MarchSettings& 
                    context.statistics.march);
 }
 
-template <int C> Spectrum<C> marched_shadow(const Ray& shadow, int bounce, int index, SampleContext& context) {
-  const Scene& scene = context.scene;
-  const MarchSettings settings{scene.shadow_step_size, context.sampler.u1(Decision::ShadowOffset, bounce, index),
-                               scene.render.time};
-  return shadow_transmittance<C>(scene.media, shadow, settings, context.arena, context.statistics.march);
-}
-
 template <int C> Spectrum<C> transmittance_to(const MarchRecord<C>& record, float t) {
   if (record.empty() || t <= record.span().begin) return filled<C>(1);
   return t >= record.span().end ? transmittance(record) : evaluate(record, t).transmittance;
-}
-
-template <int C>
-Color marched_reflection(const MarchRecord<C>& record, const SurfaceHit& surface, int bounce, int place,
-                         SampleContext& context) {
-  return to_color(transmittance(record)) *
-         light_at_surface<C>(surface, bounce, place, context, shadow_by_marching<C>(bounce, context));
 }
 
 template <int C> void diagnose(const MarchRecord<C>& record, RayDiagnostics& out) {
@@ -45,11 +30,10 @@ namespace {
 template <int C>
 bool scatter_in_medium(const MarchRecord<C>& record, Ray& ray, Color& beta, int bounce, SampleContext& context) {
   const DensitySampling<C> density(record);
-  const DistanceSample drawn = density.sample(context.sampler.u1(Decision::BounceDistance, bounce));
-  const RayPoint<C> at = evaluate(record, drawn.t);
+  const RayPoint<C> at = density.sample(context.sampler.u1(Decision::BounceDistance, bounce));
   const float pdf = density.pdf(at);
   if (!(pdf > 0)) return false;
-  const Vec3 x = ray.at(drawn.t);
+  const Vec3 x = ray.at(at.t);
   const PhaseMixture<C> phase(context.scene, ray.direction, record, at.segment, context.arena);
   const auto scattered = scatter_direction<C>(phase, x, bounce, context);
   Spectrum<C> factor;
@@ -90,12 +74,8 @@ bool scatter(const MarchRecord<C>& record, const std::optional<SurfaceHit>& surf
 
 template MarchRecord<1> record_ray(const Ray&, const MarchSettings&, SampleContext&);
 template MarchRecord<3> record_ray(const Ray&, const MarchSettings&, SampleContext&);
-template Spectrum<1> marched_shadow(const Ray&, int, int, SampleContext&);
-template Spectrum<3> marched_shadow(const Ray&, int, int, SampleContext&);
 template Spectrum<1> transmittance_to(const MarchRecord<1>&, float);
 template Spectrum<3> transmittance_to(const MarchRecord<3>&, float);
-template Color marched_reflection(const MarchRecord<1>&, const SurfaceHit&, int, int, SampleContext&);
-template Color marched_reflection(const MarchRecord<3>&, const SurfaceHit&, int, int, SampleContext&);
 template void diagnose(const MarchRecord<1>&, RayDiagnostics&);
 template void diagnose(const MarchRecord<3>&, RayDiagnostics&);
 template bool scatter(const MarchRecord<1>&, const std::optional<SurfaceHit>&, Ray&, Color&, int, SampleContext&);

@@ -9,25 +9,8 @@ namespace brume {
 /// First step: the ray's medium written down, with what this scene needs of it.
 template <int C> MarchRecord<C> record_ray(const Ray& ray, const MarchSettings& settings, SampleContext& context);
 
-/// Transmittance of a shadow ray, marched at the shadow step.
-/// @param index  of its light sample, for the random offset
-template <int C> Spectrum<C> marched_shadow(const Ray& shadow, int bounce, int index, SampleContext& context);
-
-/// For light_at_point(): transmittance towards a light by marched_shadow().
-template <int C> auto shadow_by_marching(int bounce, SampleContext& context) {
-  return [bounce, &context](const Light&, const Ray& shadow, int index) {
-    return to_color(marched_shadow<C>(shadow, bounce, index, context));
-  };
-}
-
 /// Transmittance from the ray's origin to t, read off the record.
 template <int C> Spectrum<C> transmittance_to(const MarchRecord<C>& record, float t);
-
-/// Light that the surface behind the record sends through it to the ray's origin, with marched shadow rays.
-/// @param place  see for_lights()
-template <int C>
-Color marched_reflection(const MarchRecord<C>& record, const SurfaceHit& surface, int bounce, int place,
-                         SampleContext& context);
 
 /// What probes and the medium's diagnosis want to know.
 template <int C> void diagnose(const MarchRecord<C>& record, RayDiagnostics& out);

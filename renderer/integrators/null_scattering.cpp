@@ -35,12 +35,6 @@ template <int C> struct Leg {
   /// Density of having come to a real collision after null collisions of product n, over that of their places.
   float tracked_pdf(const Spectrum<C>& n, const Spectrum<C>& sigma_t) const { return mean_of(path.p * n * sigma_t); }
 
-  Color shadowed(const IncomingLight& in, Vec3 x, int index) const {
-    ++context.statistics.shadow_rays;
-    const Ray shadow{x, in.wi, {0, in.distance}};
-    return in.scattered * to_color(tracked_transmittance<C>(shadow, Decision::ShadowFlight, bounce, index, context));
-  }
-
   float equiangular_pdf(const Light& light, const LightPoint& point, float t, Interval inside) const {
     if (point.kind != LightPoint::Kind::Finite) return 0;
     const Interval lit = intersect(inside, light.lit_part(point, {ray.origin, ray.direction, inside}));
@@ -54,47 +48,48 @@ template <int C> struct Leg {
     const float tracked = tracked_pdf(n, at.sigma_t);
     const Color value = to_color(path.f * n * at.sigma_s) / tracked;
     if (is_black(value)) return {};
-    Color sum;
+    TrackedShadows<C> shadows(bounce, context);
     for_light_samples(
-        bounce, 0, context.scene.render.light_samples, context, [&](const Light& light, float factor, int index) {
-          const LightPoint point = light.sample_point(context.sampler.u2(Decision::LightPoint, bounce, index));
-          const IncomingLight in = LightTechnique<C>(light, context, bounce, index).draw(point, x, phase);
+        bounce, 0, context.scene.render.light_samples, context, [&](const Light& light, float factor, const LightNumbers& numbers, int k) {
+          const LightPoint point = light.sample_point(numbers.point(k));
+          const IncomingLight in = LightTechnique<C>(light, context, bounce, numbers.index(k)).draw(point, x, phase);
           if (is_black(in.scattered)) return;
           const float mine = tracked * in.pdf_ratio;
           const float other = mean_of(path.p) * equiangular_pdf(light, in.point, at.t, inside);
-          sum += value * shadowed(in, x, index) * (factor * mine / (mine + other));
+          shadows.add(light, {x, in.wi, {0, in.distance}}, value * in.scattered * (factor * mine / (mine + other)), numbers, k);
         });
-    return sum;
+    return shadows.light();
   }
 
   /// Light samples at distances drawn about the light points; the null collisions up to there are those of ratio
   /// tracking, drawn with the density that tracking draws them with.
   Color about_lights(Interval inside) const {
-    Color sum;
+    TrackedShadows<C> shadows(bounce, context);
     for_light_samples(
-        bounce, 1, context.scene.render.light_samples, context, [&](const Light& light, float factor, int index) {
-          const LightPoint point = light.sample_point(context.sampler.u2(Decision::LightPoint, bounce, index));
+        bounce, 1, context.scene.render.light_samples, context, [&](const Light& light, float factor, const LightNumbers& numbers, int k) {
+          const LightPoint point = light.sample_point(numbers.point(k));
           if (point.kind != LightPoint::Kind::Finite) return;
           const Interval lit = intersect(inside, light.lit_part(point, {ray.origin, ray.direction, inside}));
           if (lit.empty()) return;
           const ArenaScope scope(context.arena);
           const DistanceSample drawn = EquiangularSampling(ray, point.position, lit)
-                                           .sample(context.sampler.u1(Decision::EquiangularDistance, bounce, index));
+                                           .sample(numbers.distances(Decision::EquiangularDistance)(k, numbers.count()));
           if (!(drawn.pdf_t > 0)) return;
           const Collision<C> at = collision_at<C>(context.scene.media, ray, drawn.t, context.scene.render.time,
                                                   context.arena, context.statistics.march);
           const Vec3 x = ray.at(drawn.t);
           const PhaseMixture<C> phase(context.scene, ray.direction, at.densities);
           if (mean_of(at.sigma_s) == 0) return;
-          const IncomingLight in = LightTechnique<C>(light, context, bounce, index).towards(point, x, phase);
+          const IncomingLight in = LightTechnique<C>(light, context, bounce, numbers.index(k)).towards(point, x, phase);
           if (is_black(in.scattered)) return;
           const Spectrum<C> n = tracked_transmittance<C>({ray.origin, ray.direction, {ray.span.begin, drawn.t}},
-                                                         Decision::EquiangularFlight, bounce, index, context);
+                                                         Decision::EquiangularFlight, bounce, numbers.index(k), context);
           const float mine = mean_of(path.p) * drawn.pdf_t;
           const float other = tracked_pdf(n, at.sigma_t) * in.pdf_ratio;
-          sum += to_color(path.f * n * at.sigma_s) * shadowed(in, x, index) * (factor / (mine + other));
+          const Color value = to_color(path.f * n * at.sigma_s) * in.scattered;
+          shadows.add(light, {x, in.wi, {0, in.distance}}, value * (factor / (mine + other)), numbers, k);
         });
-    return sum;
+    return shadows.light();
   }
 };
 
@@ -155,8 +150,9 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
       if (!surface || mean_of(path.p * n) == 0) return radiance;
       path.f = path.f * n;
       path.p = path.p * n;
-      radiance += to_color(path.f) / mean_of(path.p) *
-                  light_at_surface<C>(*surface, bounce, 2, context, shadow_by_tracking<C>(bounce, context));
+      TrackedShadows<C> shadows(bounce, context);
+      light_at_surface<C>(*surface, to_color(path.f) / mean_of(path.p), bounce, 2, context, shadows);
+      radiance += shadows.light();
       if (!turn(surface->position, DiffuseReflection<C>(surface->normal, surface->albedo))) return radiance;
     }
     surface = close(ray, scene);

@@ -3,6 +3,7 @@
 
 #include "renderer/integrators/incoming_light.h"
 #include "renderer/integrators/integrator.h"
+#include "renderer/sampling/light_numbers.h"
 
 namespace brume {
 
@@ -38,54 +39,55 @@ Color visible_lights(const Scene& scene, const Ray& ray, const std::optional<Sur
   return sum;
 }
 
-/// Calls f(light, weight, first) for every light, or for one that is picked, which then counts as often as there are
-/// lights; `first` is the index of its first light sample.
-/// @param place  of the point among those of its ray, for the random numbers
+/// Calls f(light, weight, numbers of its samples) for every light, or for one that is picked, which then counts as often as
+/// there are lights.
+/// @param place  of the point among those of its ray, for the random numbers.  @param samples  of each light
 template <class F> void for_lights(int bounce, int place, int samples, const SampleContext& context, const F& f) {
   const Scene& scene = context.scene;
   const int lights = static_cast<int>(scene.lights.size());
   if (scene.render.light_selection == LightSelection::One && lights > 1) {
     const float u = context.sampler.u1(Decision::LightChoice, bounce, place);
     const int chosen = std::min(static_cast<int>(u * static_cast<float>(lights)), lights - 1);
-    f(*scene.lights[static_cast<std::size_t>(chosen)], static_cast<float>(lights), place * samples);
+    f(*scene.lights[static_cast<std::size_t>(chosen)], static_cast<float>(lights),
+      LightNumbers(context.sampler, bounce, place, samples));
     return;
   }
-  for (int l = 0; l < lights; ++l) f(*scene.lights[static_cast<std::size_t>(l)], 1.0f, (place * lights + l) * samples);
+  for (int l = 0; l < lights; ++l)
+    f(*scene.lights[static_cast<std::size_t>(l)], 1.0f,
+      LightNumbers(context.sampler, bounce, place * lights + l, samples));
 }
 
-/// Calls f(light, factor, index) for `samples` samples of each of those lights. The factors are those of a mean over
+/// Calls f(light, factor, numbers, k) for `samples` samples of each of those lights. The factors are those of a mean over
 /// the samples.
 template <class F>
 void for_light_samples(int bounce, int place, int samples, const SampleContext& context, const F& f) {
-  for_lights(bounce, place, samples, context, [&](const Light& light, float weight, int first) {
-    for (int k = 0; k < samples; ++k) f(light, weight / static_cast<float>(samples), first + k);
+  for_lights(bounce, place, samples, context, [&](const Light& light, float weight, const LightNumbers& numbers) {
+    for (int k = 0; k < samples; ++k) f(light, weight / static_cast<float>(samples), numbers, k);
   });
 }
 
 /// Light that a vertex of a path scatters once towards where the path comes from: the mean over the light samples of
-/// value * L * transmittance.
-/// @param transmittance  Color(light, shadow ray, index)
-template <int C, Scatterer<C> S, class Transmittance>
-Color light_at_point(Vec3 x, const S& scatterer, int bounce, int place, int samples, SampleContext& context,
-                     const Transmittance& transmittance) {
-  Color sum;
-  for_light_samples(bounce, place, samples, context, [&](const Light& light, float factor, int index) {
-    const LightPoint point = light.sample_point(context.sampler.u2(Decision::LightPoint, bounce, index));
-    const IncomingLight in = LightTechnique<C>(light, context, bounce, index).draw(point, x, scatterer);
-    if (is_black(in.scattered)) return;
-    ++context.statistics.shadow_rays;
-    sum += in.scattered * transmittance(light, Ray{x, in.wi, {0, in.distance}}, index) * factor;
-  });
-  return sum;
+/// factor * value * L, each handed to the shadows, which multiply it by the transmittance of its shadow ray.
+/// @param shadows  MarchedShadows or TrackedShadows: add(light, shadow ray, carried, numbers, k)
+template <int C, Scatterer<C> S, class Shadows>
+void light_at_point(Vec3 x, const S& scatterer, Color factor, int bounce, int place, int samples,
+                    SampleContext& context, Shadows& shadows) {
+  for_light_samples(
+      bounce, place, samples, context, [&](const Light& light, float weight, const LightNumbers& numbers, int k) {
+        const LightPoint point = light.sample_point(numbers.point(k));
+        const IncomingLight in = LightTechnique<C>(light, context, bounce, numbers.index(k)).draw(point, x, scatterer);
+        if (is_black(in.scattered)) return;
+        shadows.add(light, Ray{x, in.wi, {0, in.distance}}, factor * in.scattered * weight, numbers, k);
+      });
 }
 
 /// The same for the surface that closes a ray.
-template <int C, class Transmittance>
-Color light_at_surface(const SurfaceHit& surface, int bounce, int place, SampleContext& context,
-                       const Transmittance& transmittance) {
-  if (is_black(surface.albedo)) return {};
-  return light_at_point<C>(surface.position, DiffuseReflection<C>(surface.normal, surface.albedo), bounce, place,
-                           context.scene.render.light_samples, context, transmittance);
+template <int C, class Shadows>
+void light_at_surface(const SurfaceHit& surface, Color factor, int bounce, int place, SampleContext& context,
+                      Shadows& shadows) {
+  if (is_black(surface.albedo)) return;
+  light_at_point<C>(surface.position, DiffuseReflection<C>(surface.normal, surface.albedo), factor, bounce, place,
+                    context.scene.render.light_samples, context, shadows);
 }
 
 }  // namespace brume

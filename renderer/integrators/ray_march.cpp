@@ -1,11 +1,32 @@
 #include "renderer/integrators/ray_march.h"
 
 #include "renderer/integrators/marched_path.h"
+#include "renderer/integrators/marched_shadows.h"
 #include "renderer/integrators/path.h"
 #include "renderer/integrators/registry.h"
 #include "renderer/march/distribute.h"
 
 namespace brume {
+
+/// Light samples whose transmittance is marched, or taken from a map.
+template <int C> class RayMarchIntegrator::Shadows {
+ public:
+  Shadows(const RayMarchIntegrator& integrator, SampleContext& context) : integrator_(integrator), scene_(context.scene), marched_(context) {}
+
+  void add(const Light& light, const Ray& shadow, Color carried, const LightNumbers& numbers, int k) {
+    if (const DeepShadowMap* map = integrator_.shadow_map(scene_, light))
+      cached_ += carried * map->transmittance(shadow.origin);
+    else
+      marched_.add(light, shadow, carried, numbers, k);
+  }
+  Color light() { return cached_ + marched_.light(); }
+
+ private:
+  const RayMarchIntegrator& integrator_;
+  const Scene& scene_;
+  MarchedShadows<C> marched_;
+  Color cached_;
+};
 
 template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context) const {
   const Scene& scene = context.scene;
@@ -23,9 +44,7 @@ template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context
       radiance = visible_lights(scene, ray, surface, [&](float t) { return to_color(transmittance_to(rec, t)); });
     }
     if (!rec.empty()) radiance += beta * emitted_radiance(rec);
-    const auto shadowed = [&](const Light& light, const Ray& towards, int index) {
-      return shadow(light, towards, bounce, index, context);
-    };
+    Shadows<C> shadows(*this, context);
 
     const bool scatters = !rec.empty() && rec.scattered() > 0;
     for (int i = 0; scatters && i < rec.n; ++i) {
@@ -39,19 +58,14 @@ template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context
       }
       if (is_black(scattered)) continue;
       const PhaseMixture<C> phase(scene, ray.direction, rec, i, context.arena);
-      radiance += beta * scattered *
-                  light_at_point<C>(ray.at(at.t), phase, bounce, i, scene.render.light_samples, context, shadowed);
+      light_at_point<C>(ray.at(at.t), phase, beta * scattered, bounce, i, scene.render.light_samples, context, shadows);
     }
     if (surface)
-      radiance += beta * to_color(transmittance(rec)) * light_at_surface<C>(*surface, bounce, rec.n, context, shadowed);
+      light_at_surface<C>(*surface, beta * to_color(transmittance(rec)), bounce, rec.n, context, shadows);
+    radiance += shadows.light();
     if (bounce == scene.render.bounces) return radiance;
     if (!scatter(rec, surface, ray, beta, bounce, context)) return radiance;
   }
-}
-
-Color RayMarchIntegrator::shadow(const Light&, const Ray& ray, int bounce, int index, SampleContext& context) const {
-  return context.scene.needs.channels == 1 ? to_color(marched_shadow<1>(ray, bounce, index, context))
-                                           : to_color(marched_shadow<3>(ray, bounce, index, context));
 }
 
 Color RayMarchIntegrator::radiance(const Ray& camera_ray, SampleContext& context) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "renderer/integrators/deep_shadow_map.h"
 #include "renderer/integrators/integrator.h"
 
 namespace brume {
@@ -15,10 +16,11 @@ class RayMarchIntegrator : public Integrator {
   Color radiance(const Ray& camera_ray, SampleContext& context) const override;
 
  protected:
-  /// Transmittance along a shadow ray towards a light.
-  virtual Color shadow(const Light& light, const Ray& ray, int bounce, int index, SampleContext& context) const;
+  /// Of a light whose transmittance is cached; null for one whose shadow rays are marched.
+  virtual const DeepShadowMap* shadow_map(const Scene&, const Light&) const { return nullptr; }
 
  private:
+  template <int C> class Shadows;
   template <int C> Color trace(Ray ray, SampleContext& context) const;
 };
 

@@ -8,12 +8,10 @@ RayMarchCachedIntegrator::RayMarchCachedIntegrator(const Scene& scene) {
   for (const auto& light : scene.lights) maps_.push_back(DeepShadowMap::make(scene, *light));
 }
 
-Color RayMarchCachedIntegrator::shadow(const Light& light, const Ray& ray, int bounce, int index,
-                                       SampleContext& context) const {
-  const auto& lights = context.scene.lights;
-  for (std::size_t l = 0; l < lights.size(); ++l)
-    if (lights[l].get() == &light && maps_[l]) return maps_[l]->transmittance(ray.origin);
-  return RayMarchIntegrator::shadow(light, ray, bounce, index, context);
+const DeepShadowMap* RayMarchCachedIntegrator::shadow_map(const Scene& scene, const Light& light) const {
+  for (std::size_t l = 0; l < maps_.size(); ++l)
+    if (scene.lights[l].get() == &light) return maps_[l].get();
+  return nullptr;
 }
 
 IntegratorType ray_march_cached_integrator_type() {

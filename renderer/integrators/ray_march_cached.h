@@ -1,6 +1,5 @@
 #pragma once
 
-#include "renderer/integrators/deep_shadow_map.h"
 #include "renderer/integrators/ray_march.h"
 
 namespace brume {
@@ -13,7 +12,7 @@ class RayMarchCachedIntegrator final : public RayMarchIntegrator {
   explicit RayMarchCachedIntegrator(const Scene& scene);
 
  protected:
-  Color shadow(const Light& light, const Ray& ray, int bounce, int index, SampleContext& context) const override;
+  const DeepShadowMap* shadow_map(const Scene& scene, const Light& light) const override;
 
  private:
   std::vector<std::unique_ptr<const DeepShadowMap>> maps_;  // of the scene's lights, in their order; null: none

@@ -1,6 +1,7 @@
 #include "renderer/integrators/stochastic_march.h"
 
 #include "renderer/integrators/marched_path.h"
+#include "renderer/integrators/marched_shadows.h"
 #include "renderer/integrators/path.h"
 #include "renderer/integrators/registry.h"
 #include "renderer/integrators/scatter_direction.h"
@@ -20,7 +21,8 @@ template <int C> struct Marching {
   Color beta;
   Spectrum<C> p;   // per channel: pdf of the path so far when that channel leads, relative
   int leader = 0;  // the channel whose transmittance the random numbers are compared with
-  Color radiance = {};
+  MarchedShadows<C> shadows{context};
+  Color radiance = {};  // emission
 
   // The place where the path may go on.
   bool goes_on = false;
@@ -56,8 +58,7 @@ template <int C> struct Marching {
     const Scene& scene = context.scene;
     const Vec3 x = ray.at(t);
     const PhaseMixture<C> phase(scene, ray.direction, rec, i, context.arena);
-    radiance += value * (1.0f / static_cast<float>(samples())) *
-                light_at_point<C>(x, phase, bounce, k, 1, context, shadow_by_marching<C>(bounce, context));
+    light_at_point<C>(x, phase, value / static_cast<float>(samples()), bounce, k, 1, context, shadows);
     if (k == chosen) go_on(x, phase, value, tracked, pdf);
   }
 
@@ -75,8 +76,8 @@ template <int C> struct Marching {
     if (!(pdf > 0)) return;
     value *= 1 / pdf;
     const int n = samples();
-    radiance += value * (static_cast<float>(n - k) / static_cast<float>(n)) *
-                light_at_surface<C>(surface, bounce, n, context, shadow_by_marching<C>(bounce, context));
+    light_at_surface<C>(surface, value * (static_cast<float>(n - k) / static_cast<float>(n)), bounce, n, context,
+                        shadows);
     if (chosen >= k) go_on(surface.position, DiffuseReflection<C>(surface.normal, surface.albedo), value, tracked, pdf);
   }
 
@@ -163,7 +164,7 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
     ++context.statistics.rays;
     Marching<C> marching{context, bounce, ray, beta, p, leader};
     marching.march(surface);
-    radiance += marching.radiance;
+    radiance += marching.radiance + marching.shadows.light();
     if (bounce == scene.render.bounces || !marching.goes_on) return radiance;
     beta = marching.next_beta;
     if (!is_black(beta)) beta *= roulette(beta, bounce, context);

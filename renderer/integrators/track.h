@@ -3,6 +3,7 @@
 
 #include "renderer/integrators/integrator.h"
 #include "renderer/march/tracking.h"
+#include "renderer/sampling/light_numbers.h"
 
 namespace brume {
 
@@ -27,12 +28,24 @@ template <int C> Color transmittance_to(const Ray& ray, float t, SampleContext& 
                                            0, context));
 }
 
-/// For light_at_point(): transmittance towards a light by ratio tracking.
-template <int C> auto shadow_by_tracking(int bounce, SampleContext& context) {
-  return [bounce, &context](const Light&, const Ray& shadow, int index) {
-    return to_color(tracked_transmittance<C>(shadow, Decision::ShadowFlight, bounce, index, context));
-  };
-}
+/// Adds up light samples, each times the transmittance of its shadow ray by ratio tracking.
+template <int C> class TrackedShadows {
+ public:
+  TrackedShadows(int bounce, SampleContext& context) : bounce_(bounce), context_(context) {}
+
+  void add(const Light&, const Ray& shadow, Color carried, const LightNumbers& numbers, int k) {
+    ++context_.statistics.shadow_rays;
+    sum_ += carried *
+            to_color(tracked_transmittance<C>(shadow, Decision::ShadowFlight, bounce_, numbers.index(k), context_));
+  }
+
+  Color light() const { return sum_; }
+
+ private:
+  int bounce_;
+  SampleContext& context_;
+  Color sum_;
+};
 
 /// Transmittance of the camera ray by one run of ratio tracking: right on average, but not its logarithm, so the
 /// optical depth is that of this one run.

@@ -3,29 +3,49 @@
 #include <algorithm>
 
 namespace brume {
+namespace {
 
-template <int C> int find_segment(const MarchRecord<C>& rec, float t) {
-  const float* above = std::upper_bound(rec.t, rec.t + rec.n + 1, t);
-  return std::clamp(static_cast<int>(above - rec.t) - 1, 0, rec.n - 1);
+/// The segment between two edges that holds a value: the last one that begins at or below it.
+/// @param edges  [n + 1], ascending.  @param n  > 0.  @return in [0, n)
+int segment_of(const float* edges, int n, float value) {
+  // The number of steps depends on n only and no branch on the values: half of such branches would be mispredicted.
+  const float* first = edges;
+  for (int left = n; left > 1;) {
+    const int half = left / 2;
+    first += first[half] <= value ? half : 0;
+    left -= half;
+  }
+  return static_cast<int>(first - edges);
 }
+
+/// Solves 1 - exp(-x s) = v (1 - exp(-x)) for s in thin segments, x below 0.05, where the difference would cancel.
+float thin_inverse(float v, float x) {
+  const float m = 1 - x * (0.5f - x * (1.0f / 6 - x * (1.0f / 24)));  // (1 - exp(-x)) / x
+  const float y = v * m * x;
+  return v * m * (1 + y * (0.5f + y * (1.0f / 3 + y * (0.25f + y * 0.2f))));  // -log(1 - y) / x
+}
+
+}  // namespace
+
+template <int C> int find_segment(const MarchRecord<C>& rec, float t) { return segment_of(rec.t, rec.n, t); }
 
 template <int C> RayPoint<C> evaluate(const MarchRecord<C>& rec, float t, int segment) {
   RayPoint<C> point{t, segment, {}, {}};
   const auto i = static_cast<std::size_t>(segment);
   for (std::size_t c = 0; c < C; ++c) {
     point.sigma_s.v[c] = rec.sigma_s[c][i];
-    point.transmittance.v[c] = std::exp(-(rec.tau[c][i] + rec.sigma_t[c][i] * (t - rec.t[i])));
+    point.transmittance.v[c] = rec.transmittance[c][i] * std::exp(-rec.sigma_t[c][i] * (t - rec.t[i]));
   }
   return point;
 }
 
-template <int C> DistanceSample DensitySampling<C>::sample(float u) const {
+template <int C> RayPoint<C> DensitySampling<C>::sample(float u) const {
   const MarchRecord<C>& rec = record_;
   const float target = u * rec.scattered();
-  // upper_bound steps over segments that scatter nothing: they have cdf[i] == cdf[i + 1].
-  const float* above = std::upper_bound(rec.cdf, rec.cdf + rec.n + 1, target);
-  auto i = static_cast<std::size_t>(std::clamp(static_cast<int>(above - rec.cdf) - 1, 0, rec.n - 1));
-  while (i > 0 && rec.cdf[i + 1] <= rec.cdf[i]) --i;  // target rounded up to the very end
+  // Segments that scatter nothing have cdf[i] == cdf[i + 1] and are stepped over, but for a target that was rounded up
+  // to the very end.
+  auto i = static_cast<std::size_t>(segment_of(rec.cdf, rec.n, target));
+  while (i > 0 && rec.cdf[i + 1] <= rec.cdf[i]) --i;
   const float p = rec.cdf[i + 1] - rec.cdf[i];
   float v = std::clamp((target - rec.cdf[i]) / p, 0.0f, 1.0f);
 
@@ -40,13 +60,21 @@ template <int C> DistanceSample DensitySampling<C>::sample(float u) const {
     v = std::clamp(rest / share[channel], 0.0f, 1.0f);
   }
 
-  // Inverts the CDF (1 - exp(-sigma s)) / (1 - exp(-sigma delta)) of the distance s into the segment.
+  // Inverts the CDF (1 - exp(-sigma s)) / (1 - exp(-sigma delta)) of the distance s into the segment: the transmittance
+  // at s is that share of the way from the one at the segment's begin to the one at its end.
   const float begin = rec.t[i], delta = rec.t[i + 1] - begin;
   const float sigma = rec.sigma_t[channel][i], x = sigma * delta;
-  const float s = x > 1e-4f ? -std::log1p(v * std::expm1(-x)) / sigma
-                            : delta * v * (1 - 0.5f * x * (1 - v));  // first order in x: below 1e-4 exact in float
-  const float t = std::clamp(begin + s, begin, rec.t[i + 1]);
-  return {t, pdf(evaluate(rec, t, static_cast<int>(i)))};
+  const float* transmittance = &rec.transmittance[channel][i];
+  const float here = transmittance[0] - v * (transmittance[0] - transmittance[1]);
+  if (x < 0.05f || !(here > 0)) {
+    const float s = x < 0.05f ? delta * thin_inverse(v, x) : -std::log1p(v * std::expm1(-x)) / sigma;
+    return evaluate(rec, std::clamp(begin + s, begin, rec.t[i + 1]), static_cast<int>(i));
+  }
+  const float t = std::clamp(begin + std::log(transmittance[0] / here) / sigma, begin, rec.t[i + 1]);
+  if constexpr (C == 1)
+    return {t, static_cast<int>(i), {rec.sigma_s[0][i]}, {here}};
+  else
+    return evaluate(rec, t, static_cast<int>(i));
 }
 
 template <int C> float DensitySampling<C>::pdf(const RayPoint<C>& point) const {

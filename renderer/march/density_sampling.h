@@ -5,12 +5,6 @@
 
 namespace brume {
 
-/// A distance along the ray with the density it was drawn with.
-struct DistanceSample {
-  float t;      ///< world units
-  float pdf_t;  ///< per world unit; > 0
-};
-
 /// The state of the ray at a distance t, read off the record in O(log n).
 template <int C> struct RayPoint {
   float t;
@@ -37,9 +31,9 @@ template <int C> class DensitySampling {
   explicit DensitySampling(const MarchRecord<C>& record) : record_(record) {}
 
   /// Segment by binary search in the CDF, then the exponential of that segment inverted.  @param u in [0,1)
-  DistanceSample sample(float u) const;
+  RayPoint<C> sample(float u) const;
 
-  /// The same function for any point of the ray.
+  /// Of any point of the ray, per world unit.
   float pdf(const RayPoint<C>& point) const;
 
  private:

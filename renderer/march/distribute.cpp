@@ -1,75 +1,26 @@
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "renderer/march/distribute.cpp"
-#include <hwy/foreach_target.h>  // compiles this file once per instruction set
-
-#include <hwy/contrib/math/math-inl.h>
-#include <hwy/highway.h>
-
 #include "renderer/march/distribute.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace brume::HWY_NAMESPACE {
+#include "renderer/march/step_loops.h"
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-/// length[i] = exp(-tau[i]) delta_i (1 - exp(-x)) / x with x = sigma_t[i] delta_i, for i in [0, n).
-/// Arrays are padded to whole vectors; what is computed there is never read.
-void AttenuatedLengths(int n, const float* HWY_RESTRICT t, const float* HWY_RESTRICT sigma_t,
-                       const float* HWY_RESTRICT tau, float* HWY_RESTRICT length) {
-  const hn::CappedTag<float, 16> d;
-  const auto one = hn::Set(d, 1.0f);
-  for (int i = 0; i < n; i += static_cast<int>(hn::Lanes(d))) {
-    const auto delta = hn::Sub(hn::LoadU(d, t + i + 1), hn::Load(d, t + i));
-    const auto x = hn::Mul(hn::Load(d, sigma_t + i), delta);
-    const auto attenuation = hn::Exp(d, hn::Neg(hn::Load(d, tau + i)));
-    // Below 1e-4 the series 1 - x/2 is exact in float; the quotient would be 0/0 at 0.
-    const auto series = hn::NegMulAdd(hn::Set(d, 0.5f), x, one);
-    const auto quotient = hn::Div(hn::Neg(hn::Expm1(d, hn::Neg(x))), x);
-    const auto mean = hn::IfThenElse(hn::Lt(x, hn::Set(d, 1e-4f)), series, quotient);
-    hn::Store(hn::Mul(hn::Mul(attenuation, delta), mean), d, length + i);
-  }
-}
-
-}  // namespace brume::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
 namespace brume {
-
-HWY_EXPORT(AttenuatedLengths);
-
-namespace {
-
-/// Running sums are kept in double: thousands of thin segments must add up to the optical depth within float rounding.
-void accumulate_tau(int n, const float* t, const float* sigma_t, float* tau) {
-  double sum = 0;
-  tau[0] = 0;
-  for (int i = 0; i < n; ++i) {
-    sum += static_cast<double>(sigma_t[i] * (t[i + 1] - t[i]));
-    tau[i + 1] = static_cast<float>(sum);
-  }
-}
-
-}  // namespace
 
 template <int C> void distribute(MarchRecord<C>& rec, Color throughput, Arena& arena) {
   const auto n = static_cast<std::size_t>(rec.n);
+  constexpr std::size_t kOneVector = 16;
   rec.weight = channel_weights<C>(throughput);
+  float* cdf = arena.alloc_span<float>(n + kOneVector).data();
   for (std::size_t c = 0; c < C; ++c) {
-    rec.tau[c] = arena.alloc_span<float>(n + 1).data();
+    rec.tau[c] = arena.alloc_span<float>(n + kOneVector).data();
+    rec.transmittance[c] = arena.alloc_span<float>(n + kOneVector).data();
     rec.length[c] = arena.alloc_span<float>(n).data();
-    accumulate_tau(rec.n, rec.t, rec.sigma_t[c], rec.tau[c]);
-    HWY_DYNAMIC_DISPATCH(AttenuatedLengths)(rec.n, rec.t, rec.sigma_t[c], rec.tau[c], rec.length[c]);
+    attenuate(rec.t, rec.sigma_t[c], rec.n, {rec.tau[c], rec.transmittance[c], rec.length[c]});
   }
-  float* cdf = arena.alloc_span<float>(n + 1).data();
-  double sum = 0;
-  cdf[0] = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    float p = 0;
-    for (std::size_t c = 0; c < C; ++c) p += rec.weight.v[c] * rec.sigma_s[c][i] * rec.length[c][i];
-    sum += static_cast<double>(p);
-    cdf[i + 1] = static_cast<float>(sum);
-  }
+  const ArenaScope scope(arena);
+  float* p = arena.alloc_span<float>(n).data();
+  for (std::size_t i = 0; i < n; ++i) p[i] = rec.weight.v[0] * rec.sigma_s[0][i] * rec.length[0][i];
+  for (std::size_t c = 1; c < C; ++c)
+    for (std::size_t i = 0; i < n; ++i) p[i] += rec.weight.v[c] * rec.sigma_s[c][i] * rec.length[c][i];
+  running_sum(p, rec.n, cdf);
   rec.cdf = cdf;
 }
 
@@ -88,7 +39,7 @@ template <int C> Color emitted_radiance(const MarchRecord<C>& rec) {
 
 template <int C> Spectrum<C> transmittance(const MarchRecord<C>& rec) {
   Spectrum<C> result;
-  for (int c = 0; c < C; ++c) result[c] = rec.empty() ? 1.0f : std::exp(-rec.tau[static_cast<std::size_t>(c)][rec.n]);
+  for (int c = 0; c < C; ++c) result[c] = rec.empty() ? 1.0f : rec.transmittance[static_cast<std::size_t>(c)][rec.n];
   return result;
 }
 
@@ -100,4 +51,3 @@ template Spectrum<1> transmittance<1>(const MarchRecord<1>&);
 template Spectrum<3> transmittance<3>(const MarchRecord<3>&);
 
 }  // namespace brume
-#endif  // HWY_ONCE

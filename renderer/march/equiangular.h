@@ -2,9 +2,14 @@
 #pragma once
 
 #include "renderer/core/ray.h"
-#include "renderer/march/density_sampling.h"
 
 namespace brume {
+
+/// A distance along the ray with the density it was drawn with.
+struct DistanceSample {
+  float t;      ///< world units
+  float pdf_t;  ///< per world unit; > 0
+};
 
 /// Equi-angular sampling of a span of a ray about a pivot: pdf(t) = D / (d_theta (D^2 + s^2)), where s = t - foot is
 /// measured from the foot of the pivot on the ray and D is the pivot's distance from the ray.

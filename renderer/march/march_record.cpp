@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "renderer/march/presence.h"
+#include "renderer/march/step_loops.h"
 
 namespace brume {
 
@@ -13,8 +14,10 @@ int segment_count(float length, float& step, MarchCounts& counts) {
     ++counts.capped;
     return kMaxSegments;
   }
-  // A remainder below 1e-4 of a step is rounding, not a segment.
-  return std::max(1, static_cast<int>(std::ceil(exact - 1e-4f)));
+  // Rounded up; a remainder below 1e-4 of a step is rounding, not a segment.
+  const float counted = std::max(exact - 1e-4f, 0.0f);
+  const int whole = static_cast<int>(counted);
+  return std::max(1, whole + (static_cast<float>(whole) < counted ? 1 : 0));
 }
 
 namespace {
@@ -28,22 +31,15 @@ struct Stretch {
   bool uniform;  // all its media are homogeneous (or there are none): nothing to look up
 };
 
-/// Positions at which a stretch is looked up, one per segment.
+/// Positions at which a stretch is looked up, one per segment.  @param t  of its edges
 PointBatch lookup_points(const Stretch& stretch, const float* t, const Ray& ray, const MarchSettings& settings,
                          Arena& arena) {
   const auto n = static_cast<std::size_t>(stretch.count);
-  const auto x = arena.alloc_span<float>(n), y = arena.alloc_span<float>(n), z = arena.alloc_span<float>(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const float at = t[i] + settings.offset * (t[i + 1] - t[i]);
-    x[i] = ray.origin.x + ray.direction.x * at;
-    y[i] = ray.origin.y + ray.direction.y * at;
-    z[i] = ray.origin.z + ray.direction.z * at;
-  }
-  return {x.data(), y.data(), z.data(), stretch.count, settings.time};
-}
-
-void add_scaled(float* sum, const float* values, float scale, int n) {
-  for (int i = 0; i < n; ++i) sum[i] += scale * values[i];
+  float* x = arena.alloc_span<float>(n).data();
+  float* y = arena.alloc_span<float>(n).data();
+  float* z = arena.alloc_span<float>(n).data();
+  write_points(ray, t, settings.offset, stretch.count, x, y, z);
+  return {x, y, z, stretch.count, settings.time};
 }
 
 }  // namespace
@@ -82,7 +78,7 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
     rec.medium_density = arena.alloc_span<float*>(media.size()).data();
     for (std::size_t m = 0; m < media.size(); ++m) rec.medium_density[m] = zeros();
   }
-  float* t = arena.alloc_span<float>(n + 16).data();  // distribute() reads whole vectors, up to 16, from t + 1
+  float* t = arena.alloc_span<float>(n + 16).data();  // loops read whole vectors, up to 16, from t + 1
   for (const Stretch& s : stretches)
     for (int i = 0; i < s.count; ++i) t[s.first + i] = s.span.begin + static_cast<float>(i) * s.step;
   t[n] = stretches.back().span.end;
@@ -106,10 +102,10 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
       }
       for (int c = 0; c < C; ++c) {
         const auto channel = static_cast<std::size_t>(c);
-        add_scaled(rec.sigma_t[channel] + first, density.data(), medium.sigma_t[c], stretch.count);
-        add_scaled(rec.sigma_s[channel] + first, density.data(), medium.sigma_s[c], stretch.count);
+        add_scaled(density.data(), medium.sigma_t[c], stretch.count, rec.sigma_t[channel] + first);
+        add_scaled(density.data(), medium.sigma_s[c], stretch.count, rec.sigma_s[channel] + first);
       }
-      if (contents.overlap) add_scaled(rec.medium_density[m] + first, density.data(), 1.0f, stretch.count);
+      if (contents.overlap) add_scaled(density.data(), 1.0f, stretch.count, rec.medium_density[m] + first);
       if (!contents.emission || !medium.emits()) continue;
       EmissionBatch glow{density.data(), density.data(), density.data()};
       if (medium.traits.own_emission) {
@@ -119,7 +115,7 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
       }
       for (int c = 0; c < 3; ++c) {
         const auto channel = static_cast<std::size_t>(c);
-        add_scaled(rec.emission[channel] + first, glow[channel], medium.emission[c], stretch.count);
+        add_scaled(glow[channel], medium.emission[c], stretch.count, rec.emission[channel] + first);
       }
     }
   }

@@ -43,8 +43,8 @@ template <int C> struct MarchRecord {
   float** medium_density = nullptr;     ///< [media][n]; null unless several media may share a point
 
   std::array<float*, C> tau = {};  ///< [n + 1] optical depth from t[0] to each edge
-  std::array<float*, C> length =
-      {};                      ///< [n] integral of the transmittance over the segment: T_i (1 - exp(-tau_i)) / sigma_t
+  std::array<float*, C> transmittance = {};  ///< [n + 1] exp(-tau)
+  std::array<float*, C> length = {};         ///< [n] integral of the transmittance over the segment
   const float* cdf = nullptr;  ///< [n + 1] running sum of P_i, not normalised
   Spectrum<C> weight = {};     ///< of the channels in P_i
 

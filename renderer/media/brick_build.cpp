@@ -319,32 +319,38 @@ class BrickBuilder {
     return next;
   }
 
-  std::uint64_t value_bytes() const { return (stored_.size() + 1) * BrickGrid::kBrickFloats * sizeof(float); }
+  std::uint64_t value_bytes() const { return (stored_.size() + 1) * bytes_per_brick(layout()); }
+
+  BrickLayout layout() const {
+    if (options_.full_precision) return BrickLayout::Full;
+    // Large caches are shared with others: what a virtual machine is told is often that of its whole host.
+    const std::size_t ours = std::min(last_cache_bytes(), std::size_t{32} << 20);
+    const std::size_t quads = (stored_.size() + 1) * bytes_per_brick(BrickLayout::Quad);
+    return quads <= ours ? BrickLayout::Quad : BrickLayout::Half;
+  }
 
   bool fill_values() {
     grid_.brick_count_ = static_cast<int>(stored_.size() + 1);
-    grid_.values_.reset(static_cast<float*>(::operator new(value_bytes(), std::align_val_t(64))));
-    std::fill_n(grid_.values_.get(), BrickGrid::kBrickFloats, 0.0f);
+    grid_.values_ = BrickValues(layout(), stored_.size() + 1, grid_.max_value_);
     grid_.brick_max_.resize(stored_.size() + 1);
     return parallel_load(static_cast<std::int64_t>(stored_.size()), options_, 0.4f, 1.0f, [&](std::int64_t i) {
-      float* brick = grid_.values_.get() + (i + 1) * BrickGrid::kBrickFloats;
-      fill(stored_[static_cast<std::size_t>(i)], brick);
-      constexpr int kVoxelsOfBrick = BrickGrid::kCorners * BrickGrid::kCorners * BrickGrid::kCorners;
-      grid_.brick_max_[static_cast<std::size_t>(i) + 1] = *std::max_element(brick, brick + kVoxelsOfBrick);
+      const auto brick = static_cast<std::size_t>(i);
+      float voxels[BrickValues::kVoxels];
+      assemble(stored_[brick], voxels);
+      grid_.brick_max_[brick + 1] = grid_.values_.store(brick + 1, voxels);
     });
   }
 
-  /// Writes the 9^3 voxels: rows along z, eight voxels from one block and the ninth from the next.
-  void fill(const Stored& stored, float* brick) const {
-    float* row = brick;
+  /// Puts the 9^3 voxels together: rows along z, eight voxels from one block and the ninth from the next.
+  void assemble(const Stored& stored, float* voxels) const {
+    float* row = voxels;
     for (int x = 0; x <= kLeaf; ++x)
-      for (int y = 0; y <= kLeaf; ++y, row += BrickGrid::kCorners) {
+      for (int y = 0; y <= kLeaf; ++y, row += BrickValues::kCorners) {
         const int d = (x == kLeaf ? 4 : 0) | (y == kLeaf ? 2 : 0);
         const int first = ((x & 7) * kLeaf + (y & 7)) * kLeaf;  // & 7: the ninth voxel is the first of the next block
         copy(stored.parts[d], first, kLeaf, row);
         copy(stored.parts[d | 1], first, 1, row + kLeaf);
       }
-    std::fill(row, brick + BrickGrid::kBrickFloats, 0.0f);
   }
 
   void copy(Content content, int first, int n, float* to) const {

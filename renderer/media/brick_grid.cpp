@@ -6,7 +6,7 @@
 namespace brume {
 
 std::size_t BrickGrid::memory_bytes() const {
-  return table_.size() * sizeof(std::int32_t) + static_cast<std::size_t>(brick_count_) * kBrickFloats * sizeof(float);
+  return table_.size() * sizeof(std::int32_t) + values_.bytes();
 }
 
 float BrickGrid::max_value(const Bounds3& box) const {
@@ -19,7 +19,7 @@ float BrickGrid::max_value(const Bounds3& box) const {
   }
   const bool whole = first[0] == 0 && first[1] == 0 && first[2] == 0 && last[0] == table_extent_.x - 1 &&
                      last[1] == table_extent_.y - 1 && last[2] == table_extent_.z - 1;
-  if (whole) return max_value_;
+  if (whole) return *std::max_element(brick_max_.begin(), brick_max_.end());
   float largest = 0;
   for (std::int64_t x = first[0]; x <= last[0]; ++x)
     for (std::int64_t y = first[1]; y <= last[1]; ++y)
@@ -41,8 +41,7 @@ float BrickGrid::voxel(VoxelIndex index) const {
   }
   const std::int64_t at = 1 + (place[0] * table_extent_.y + place[1]) * table_extent_.z + place[2];
   const std::int64_t brick = table_[static_cast<std::size_t>(at)];
-  return values_[static_cast<std::size_t>(brick * kBrickFloats + (local[0] * kCorners + local[1]) * kCorners +
-                                          local[2])];
+  return values_.voxel(static_cast<std::size_t>(brick), local[0], local[1], local[2]);
 }
 
 }  // namespace brume

@@ -4,13 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <memory>
-#include <new>
 #include <stop_token>
 #include <vector>
 
 #include "renderer/core/bounds.h"
 #include "renderer/core/error.h"
+#include "renderer/media/brick_values.h"
 #include "renderer/media/load_options.h"
 
 namespace brume {
@@ -44,15 +43,13 @@ struct VoxelBlocks {
 };
 
 /// Bricks of 8^3 cells. Cell i lies between voxels i and i+1, and a brick stores the 9^3 voxels at all corners of its
-/// cells, so that a look-up touches one brick only (the layout "9^3 f32" of the measurements). A dense table over the
-/// active region maps a brick's place to its number; empty bricks share number 0, and equal constant bricks share one.
+/// cells, so that a look-up touches one brick only. A dense table over the active region maps a brick's place to its
+/// number; empty bricks share number 0, and equal constant bricks share one.
 ///
 /// Values are finite and >= 0: others were replaced by 0 and counted. Immutable; any thread.
 class BrickGrid {
  public:
-  static constexpr int kCells = 8;                                         ///< cells along an edge of a brick
-  static constexpr int kCorners = 9;                                       ///< voxels stored along an edge
-  static constexpr int kBrickFloats = 736;                                 ///< 9^3 padded to whole cache lines
+  static constexpr int kCells = BrickValues::kCells;
   static constexpr std::int64_t kMaxTableEntries = std::int64_t{1} << 27;  ///< 512 MiB of table
   /// Voxels along an axis: below this an index relative to the table keeps its fraction in float.
   static constexpr std::int64_t kMaxExtent = std::int64_t{1} << 23;
@@ -64,8 +61,7 @@ class BrickGrid {
   /// Number of the brick at place (i,j,k) of the table: element 1 + (i * extent.y + j) * extent.z + k.
   /// Element 0 is brick 0, for places outside.
   const std::int32_t* table() const { return table_.data(); }
-  /// Voxel (x,y,z) of brick b, each in [0,8], is element b * kBrickFloats + (x * 9 + y) * 9 + z. 64-byte aligned.
-  const float* values() const { return values_.get(); }
+  const BrickValues& values() const { return values_; }
   int brick_count() const { return brick_count_; }  ///< with brick 0
 
   /// Index-space box outside which the trilinear interpolant is 0: [min-1, max+1] of the active voxels.
@@ -74,7 +70,7 @@ class BrickGrid {
   VoxelIndex active_max() const { return active_max_; }  ///< highest one, inclusive
 
   float min_value() const { return min_value_; }  ///< of the active voxels, after replacement
-  float max_value() const { return max_value_; }  ///< of all voxels: no look-up exceeds it but by rounding
+  float max_value() const { return max_value_; }  ///< of all voxels, before they were rounded to their layout
   /// Upper bound of the interpolant inside a box of index space; whole bricks are looked at.
   float max_value(const Bounds3& box) const;
   std::uint64_t active_voxels() const { return active_voxels_; }
@@ -87,20 +83,17 @@ class BrickGrid {
 
  private:
   friend class BrickBuilder;
-  struct Free {
-    void operator()(float* p) const { ::operator delete(p, std::align_val_t(64)); }
-  };
-
   VoxelIndex table_origin_, table_extent_, active_min_, active_max_;
   std::vector<std::int32_t> table_;
-  std::unique_ptr<float[], Free> values_;
+  BrickValues values_;
   std::vector<float> brick_max_;  // [brick_count]
   int brick_count_ = 0;
   float min_value_ = 0, max_value_ = 0;
   std::uint64_t active_voxels_ = 0, non_finite_voxels_ = 0, negative_voxels_ = 0;
 };
 
-/// Lays `blocks` out as bricks, on all hardware threads. The blocks are used up.
+/// Lays `blocks` out as bricks, on all hardware threads: as floats, or, unless options.full_precision, as half floats,
+/// in the fastest layout where the bricks fit the machine's last cache and in the smallest where they do not. The blocks are used up.
 /// A voxel's value is what OpenVDB's getValue() returns for a background of 0; voxels outside the box of the active
 /// ones are 0. Errors: no active voxel; active voxels so far apart that the table would exceed kMaxTableEntries or
 /// kMaxExtent; more memory needed than the machine has; cancelled.

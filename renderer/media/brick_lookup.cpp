@@ -33,8 +33,8 @@ struct Scratch {
   std::int32_t slot[kBlock];    // element of the brick table
   std::int32_t corner[kBlock];  // of the cell's low voxel within its brick
   float fx[kBlock], fy[kBlock], fz[kBlock];
-  float pairs[kBlock / kChunk][4][2 * kChunk];  // [chunk][(0,0) (0,1) (1,0) (1,1) in x,y][point][z, z+1]
-  bool filled[kBlock / kChunk];                 // false: the bricks of the chunk are all empty
+  std::uint32_t voxels[kBlock / kChunk][8 * kChunk];  // of the corners, as the layout wants them
+  bool filled[kBlock / kChunk];                       // false: the bricks of the chunk are all empty
 };
 
 /// From points to table elements, voxels and fractions.
@@ -55,6 +55,8 @@ class Addresses {
     first_slot_ = static_cast<std::int32_t>(1 - (kTwo23Bits >> 3) * (ny * nz + nz + 1));
   }
 
+  /// @tparam kRowStride  rows of 9 voxels from x to x + 1: 9 or 8
+  template <int kRowStride>
   HWY_INLINE void find(const PointBatch& points, int first, int count, Scratch* HWY_RESTRICT s) const {
     const D d;
     const DI di;
@@ -89,14 +91,14 @@ class Addresses {
       const auto slot = hn::Add(hn::Mul(row, row_z), hn::Add(hn::ShiftRight<3>(iz), first_slot));
       hn::Store(hn::IfThenElseZero(inside, slot), di, s->slot + i);
       const auto lx = hn::And(ix, seven), ly = hn::And(iy, seven), lz = hn::And(iz, seven);
-      const auto xy = hn::Add(times_nine(lx), ly);
+      const auto xy = hn::Add(kRowStride == 9 ? times_nine(lx) : hn::ShiftLeft<3>(lx), ly);
       hn::Store(hn::IfThenElseZero(inside, hn::Add(times_nine(xy), lz)), di, s->corner + i);
     }
   }
 
  private:
   static constexpr std::uint32_t kTwo23Bits = 0x4B000000;  // 2^23 as float
-  static_assert(BrickGrid::kMaxExtent <= 1 << 23 && BrickGrid::kCells == 8 && BrickGrid::kCorners == 9);
+  static_assert(BrickGrid::kMaxExtent <= 1 << 23 && BrickValues::kCells == 8 && BrickValues::kCorners == 9);
 
   static HWY_INLINE hn::Vec<DI> times_nine(hn::Vec<DI> v) { return hn::Add(hn::ShiftLeft<3>(v), v); }
 
@@ -105,69 +107,153 @@ class Addresses {
   std::int32_t row_y_, row_z_, first_slot_;
 };
 
-/// Fetches the corners of one chunk, if any of its bricks has values. Plain code: 8-byte loads of two neighbours along
-/// z beat hardware gathers twice over (march_limit.md, section 2).
-HWY_INLINE bool fetch(const std::int32_t* table, const float* values, const std::int32_t* slot,
-                      const std::int32_t* corner, float (*pairs)[2 * kChunk]) {
-  constexpr int kStepX = BrickGrid::kCorners * BrickGrid::kCorners, kStepY = BrickGrid::kCorners;
-  int empty = 0;  // a dense chunk leaves this loop at once; one of empty bricks is done after it
-  while (empty < kChunk && table[slot[empty]] == 0) ++empty;
-  if (empty == kChunk) return false;
-  for (int k = 0; k < kChunk; ++k) {
-    const float* v = values + std::int64_t{table[slot[k]]} * BrickGrid::kBrickFloats + corner[k];
-    std::memcpy(pairs[0] + 2 * k, v, 8);
-    std::memcpy(pairs[1] + 2 * k, v + kStepY, 8);
-    std::memcpy(pairs[2] + 2 * k, v + kStepX, 8);
-    std::memcpy(pairs[3] + 2 * k, v + kStepX + kStepY, 8);
-  }
-  return true;
-}
+using D = Addresses::D;
+using DI = Addresses::DI;
+using DU = hn::RebindToUnsigned<D>;
+using V = hn::Vec<D>;
 
-template <class V> HWY_INLINE V lerp(V f, V a, V b) {
+HWY_INLINE V lerp(V f, V a, V b) {
   return hn::MulAdd(f, hn::Sub(b, a), a);  // exactly a where a == b; never negative where a and b are not
 }
 
+/// The four values of a cell's edges along z, at the height of the points: (x,y) (x,y+1) (x+1,y) (x+1,y+1).
+struct Edges {
+  V v[4];
+};
+
+// Every layout tells how voxels are fetched to scratch, and how they are read there. Plain code fetches: loads of 8 or
+// 16 bytes beat hardware gathers twice over (march_limit.md, section 2).
+
+/// 2^112 times the float with the digits of a half float: as good, for positive ones, as the value itself.
+HWY_INLINE V shifted_half(hn::Vec<DU> bits) { return hn::BitCast(D(), hn::ShiftLeft<13>(bits)); }
+constexpr float kShiftedHalf = 0x1p112f;
+
+struct FullLayout {
+  static constexpr int kRowStride = 9, kBytes = 4;
+  static constexpr std::size_t kBrickBytes = bytes_per_brick(BrickLayout::Full);
+  static float unit(const BrickValues&) { return 1; }
+
+  static HWY_INLINE void fetch(const std::byte* corner, int k, std::uint32_t* voxels) {
+    for (int edge = 0; edge < 4; ++edge)
+      std::memcpy(voxels + (edge * kChunk + k) * 2, corner + (81 * (edge / 2) + 9 * (edge % 2)) * kBytes, 8);
+  }
+  static HWY_INLINE Edges read(const std::uint32_t* voxels, int i, V along_z) {
+    const D d;
+    Edges edges;
+    for (int edge = 0; edge < 4; ++edge) {
+      const float* pair = reinterpret_cast<const float*>(voxels) + 2 * (edge * kChunk + i);
+      const auto u = hn::Load(d, pair), v = hn::Load(d, pair + hn::Lanes(d));
+#if HWY_TARGET == HWY_SCALAR
+      edges.v[edge] = lerp(along_z, u, v);
+#else
+      edges.v[edge] = lerp(along_z, hn::ConcatEven(d, v, u), hn::ConcatOdd(d, v, u));
+#endif
+    }
+    return edges;
+  }
+};
+
+struct HalfLayout {
+  static constexpr int kRowStride = 9, kBytes = 2;
+  static constexpr std::size_t kBrickBytes = bytes_per_brick(BrickLayout::Half);
+  static float unit(const BrickValues& values) { return values.unit() * kShiftedHalf; }
+
+  static HWY_INLINE void fetch(const std::byte* corner, int k, std::uint32_t* voxels) {
+    for (int edge = 0; edge < 4; ++edge)
+      std::memcpy(voxels + edge * kChunk + k, corner + (81 * (edge / 2) + 9 * (edge % 2)) * kBytes, 4);
+  }
+  static HWY_INLINE Edges read(const std::uint32_t* voxels, int i, V along_z) {
+    const DU du;
+    Edges edges;
+    for (int edge = 0; edge < 4; ++edge) {
+      const auto pair = hn::Load(du, voxels + edge * kChunk + i);
+      edges.v[edge] = lerp(along_z, shifted_half(hn::And(pair, hn::Set(du, 0xFFFF))),
+                           shifted_half(hn::ShiftRight<16>(pair)));
+    }
+    return edges;
+  }
+};
+
+struct QuadLayout {
+  static constexpr int kRowStride = 8, kBytes = 8;
+  static constexpr std::size_t kBrickBytes = bytes_per_brick(BrickLayout::Quad);
+  static float unit(const BrickValues& values) { return values.unit() * kShiftedHalf; }
+
+  static HWY_INLINE void fetch(const std::byte* corner, int k, std::uint32_t* voxels) {
+    std::memcpy(voxels + 4 * k, corner, 16);
+  }
+  static HWY_INLINE Edges read(const std::uint32_t* voxels, int i, V along_z) {
+    const DU du;
+    hn::Vec<DU> low0, low1, high0, high1;  // z and z + 1, each x and x + 1, each two halves y and y + 1
+    hn::LoadInterleaved4(du, voxels + 4 * i, low0, low1, high0, high1);
+    const auto mask = hn::Set(du, 0xFFFF);
+    const auto y0 = [&](hn::Vec<DU> v) HWY_ATTR { return shifted_half(hn::And(v, mask)); };
+    const auto y1 = [&](hn::Vec<DU> v) HWY_ATTR { return shifted_half(hn::ShiftRight<16>(v)); };
+    return {{lerp(along_z, y0(low0), y0(high0)), lerp(along_z, y1(low0), y1(high0)),
+             lerp(along_z, y0(low1), y0(high1)), lerp(along_z, y1(low1), y1(high1))}};
+  }
+};
+
+/// Fetches the corners of one chunk, if any of its bricks has values.
+template <class Layout>
+HWY_INLINE bool fetch(const std::int32_t* table, const std::byte* values, const std::int32_t* slot,
+                      const std::int32_t* corner, std::uint32_t* voxels) {
+  int empty = 0;  // a dense chunk leaves this loop at once; one of empty bricks is done after it
+  while (empty < kChunk && table[slot[empty]] == 0) ++empty;
+  if (empty == kChunk) return false;
+  for (int k = 0; k < kChunk; ++k)
+    Layout::fetch(values + static_cast<std::size_t>(table[slot[k]]) * Layout::kBrickBytes +
+                      static_cast<std::size_t>(corner[k]) * Layout::kBytes,
+                  k, voxels);
+  return true;
+}
+
 /// Interpolates one chunk: along z first, then y, then x, which is OpenVDB's order.
-HWY_INLINE void interpolate(const float* fx, const float* fy, const float* fz, const float (*pairs)[2 * kChunk],
-                            float scale, float* out) {
-  const Addresses::D d;
+template <class Layout>
+HWY_INLINE void interpolate(const float* fx, const float* fy, const float* fz, const std::uint32_t* voxels, float scale,
+                            float* out) {
+  const D d;
   const auto scale_all = hn::Set(d, scale);
   for (int i = 0; i < kChunk; i += static_cast<int>(hn::Lanes(d))) {
-    const auto wz = hn::Load(d, fz + i), wy = hn::Load(d, fy + i), wx = hn::Load(d, fx + i);
-    const auto along_z = [&](const float* pair) HWY_ATTR {
-      const auto u = hn::Load(d, pair + 2 * i), v = hn::Load(d, pair + 2 * i + hn::Lanes(d));
-#if HWY_TARGET == HWY_SCALAR
-      return lerp(wz, u, v);
-#else
-      return lerp(wz, hn::ConcatEven(d, v, u), hn::ConcatOdd(d, v, u));
-#endif
-    };
-    const auto low = lerp(wy, along_z(pairs[0]), along_z(pairs[1]));
-    const auto high = lerp(wy, along_z(pairs[2]), along_z(pairs[3]));
+    const Edges edges = Layout::read(voxels, i, hn::Load(d, fz + i));
+    const auto wy = hn::Load(d, fy + i), wx = hn::Load(d, fx + i);
+    const auto low = lerp(wy, edges.v[0], edges.v[1]), high = lerp(wy, edges.v[2], edges.v[3]);
     hn::StoreU(hn::Mul(lerp(wx, low, high), scale_all), d, out + i);
   }
 }
 
-void lookup(const BrickGrid& grid, const Affine& local_from_scene, const PointBatch& points, float scale, float* out) {
+template <class Layout>
+void lookup_in(const BrickGrid& grid, const Affine& local_from_scene, const PointBatch& points, float scale,
+               float* out) {
   alignas(64) Scratch scratch;
   const Addresses addresses(grid, local_from_scene);
   const std::int32_t* const table = grid.table();
-  const float* const values = grid.values();
+  const std::byte* const values = grid.values().data();
+  scale *= Layout::unit(grid.values());
 
   for (int first = 0; first < points.n; first += kBlock) {
     const int count = HWY_MIN(kBlock, (points.n - first + kChunk - 1) & ~(kChunk - 1));
     Scratch* s = &scratch;
-    addresses.find(points, first, count, s);
+    addresses.find<Layout::kRowStride>(points, first, count, s);
     pass_through_memory(s);
     for (int c = 0; c < count; c += kChunk)
-      s->filled[c / kChunk] = fetch(table, values, s->slot + c, s->corner + c, s->pairs[c / kChunk]);
+      s->filled[c / kChunk] =
+          fetch<Layout>(table, values, s->slot + c, s->corner + c, s->voxels[c / kChunk]);
     pass_through_memory(s);
     for (int c = 0; c < count; c += kChunk) {
       if (s->filled[c / kChunk])
-        interpolate(s->fx + c, s->fy + c, s->fz + c, s->pairs[c / kChunk], scale, out + first + c);
+        interpolate<Layout>(s->fx + c, s->fy + c, s->fz + c, s->voxels[c / kChunk], scale, out + first + c);
       else
         std::memset(out + first + c, 0, kChunk * sizeof(float));
     }
+  }
+}
+
+void lookup(const BrickGrid& grid, const Affine& local_from_scene, const PointBatch& points, float scale, float* out) {
+  switch (grid.values().layout()) {
+    case BrickLayout::Full: return lookup_in<FullLayout>(grid, local_from_scene, points, scale, out);
+    case BrickLayout::Half: return lookup_in<HalfLayout>(grid, local_from_scene, points, scale, out);
+    case BrickLayout::Quad: return lookup_in<QuadLayout>(grid, local_from_scene, points, scale, out);
   }
 }
 

@@ -16,7 +16,7 @@ class GridCache {
       if (!loaded) return loaded.error();
       return std::make_shared<const LoadedGrid>(std::move(*loaded));
     };
-    return grids_.load(path, read, grid);
+    return grids_.load(path, read, grid + (options.full_precision ? " full" : " half"));
   }
 
   /// Forgets what nobody else holds.

@@ -31,6 +31,13 @@ ShaderTraits GridShader::traits() const {
 
 void GridShader::density(const PointBatch& points, float* density) const { lookup(density_, points, density); }
 
+std::size_t GridShader::memory_bytes() const {
+  std::size_t bytes = 0;
+  for (const Field* field : {&density_, &glow_.amount, &glow_.temperature})
+    if (field->grid) bytes += field->grid->memory_bytes();
+  return bytes;
+}
+
 float GridShader::max_density(const Bounds3& box) const {
   if (!density_.grid) return 0;
   const Bounds3 in_grid = transform_bounds(density_.index_from_scene.cast<double>(), box);
@@ -72,12 +79,14 @@ Result<MadeShader> make_grid_shader(const Node& volume, const ShaderContext& con
   double voxel_size = std::numeric_limits<double>::infinity();
   const std::string& file = volume.text("file");
   if (file.empty()) return bad_input("found no file name, expected a .vdb or .nvdb file", {"", 0, 0, "file"});
+  LoadOptions options = context.load_options;
+  options.full_precision = volume.text("precision") == "full";
   int main = -1;  // the first field that has a grid
   for (int k = 0; k < kFields; ++k) {
     const std::string& name = volume.text(keys[k]);
     if (name.empty()) continue;
     if (main < 0) main = k;
-    const auto loaded = context.grids.load(file, name, context.load_options);
+    const auto loaded = context.grids.load(file, name, options);
     if (!loaded) {
       Error error = loaded.error();
       if (error.source.key.empty()) error.source.key = keys[k];
@@ -130,7 +139,11 @@ ShaderType vdb_shader_type() {
        param::number("temperature_offset", "Temperature offset", 0)
            .slider(-1000, 1000)
            .in("K")
-           .says("Kelvin added wherever the temperature grid is not 0.")},
+           .says("Kelvin added wherever the temperature grid is not 0."),
+       param::choice("precision", "Voxels", "half",
+                     {{"half", "Half", "half floats: off by a four thousandth at most, and twice as fast"},
+                      {"full", "Full", "floats, for reference work"}})
+           .says("How exactly the values of the grids are kept.")},
       true,
       make_grid_shader};
 }

@@ -29,6 +29,7 @@ class GridShader final : public Shader {
   ShaderTraits traits() const override;
   void density(const PointBatch& points, float* density) const override;
   float max_density(const Bounds3& box) const override;
+  std::size_t memory_bytes() const override;
   void emission(const PointBatch& points, const EmissionBatch& emission) const override;
 
  private:

@@ -20,7 +20,7 @@ std::string gigabytes(std::uint64_t bytes) {
 }  // namespace
 
 LoadOptions part_of(const LoadOptions& options, float from, float to) {
-  LoadOptions part{{}, options.cancel};
+  LoadOptions part{{}, options.cancel, options.full_precision};
   if (options.progress) part.progress = [&options, from, to](float p) { options.progress(from + (to - from) * p); };
   return part;
 }

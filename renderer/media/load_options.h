@@ -1,4 +1,4 @@
-// How long loads report, are stopped, and are kept from taking more memory than there is.
+// How loads report, are stopped, and are kept from taking more memory than there is.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,8 @@ struct LoadOptions {
   std::function<void(float)> progress = {};
   /// When stop is requested, the work is given up soon and returns ErrorCode::Cancelled.
   std::stop_token cancel = {};
+  /// Voxels are kept as floats instead of half floats.
+  bool full_precision = true;
 };
 
 /// The same options, with progress running over [from, to] only. Refers to `options`.

@@ -333,7 +333,7 @@ std::vector<GridInfo> infos_of(const std::string& path, InputFile& file, std::ve
       map = index_to_world(read_grid(path, file, e, {}));
     }
     e.info.memory_bytes =
-        e.info.active_voxels.value_or(0) / 300 * (BrickGrid::kBrickFloats * sizeof(float));  // a usual filling
+        e.info.active_voxels.value_or(0) / 300 * bytes_per_brick(BrickLayout::Quad);  // a usual filling
     complete_info(e.info, map);
     infos.push_back(e.info);
   }

@@ -49,6 +49,9 @@ class Shader {
   /// picture is wrong; where it is too high, only slow.
   virtual float max_density(const Bounds3& box) const = 0;
 
+  /// Of the tables that look-ups read.
+  virtual std::size_t memory_bytes() const { return 0; }
+
   /// Writes emission[c][0..n), dimensionless, finite and >= 0; called only when traits().own_emission.
   virtual void emission(const PointBatch& points, const EmissionBatch& emission) const;
 };

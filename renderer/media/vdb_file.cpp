@@ -83,7 +83,7 @@ bool box_from_metadata(const Metadata& metadata, GridInfo& info) {
 void set_box(const Tree& tree, GridInfo& info) {
   info.active_voxels = tree.active_voxels;
   info.index_min = tree.active_min, info.index_max = tree.active_max;
-  info.memory_bytes = tree.leaves.size() * (BrickGrid::kBrickFloats * sizeof(float));
+  info.memory_bytes = tree.leaves.size() * bytes_per_brick(BrickLayout::Quad);
 }
 
 /// All that is known before the tree is read; `affine` grids of readable types are still without why_not.
@@ -121,7 +121,7 @@ Voxels read_voxels(Archive& file, const GridEntry& entry, GridInfo& info, const 
   stop_if_cancelled(options);
   find_leaf_values(c, format, tree);
   if (auto enough = check_memory(data.size() +
-                                 tree.leaves.size() * (sizeof(LeafBlock) + BrickGrid::kBrickFloats * sizeof(float)));
+                                 tree.leaves.size() * (sizeof(LeafBlock) + bytes_per_brick(BrickLayout::Quad)));
       !enough)
     throw Damaged{enough.error().message};
 
@@ -194,7 +194,7 @@ GridInfo list_grid(Archive& file, const GridEntry& entry, bool scan) {
   const bool readable = info.why_not.empty();
   const bool told = box_from_metadata(head.metadata, info);
   if (told)
-    info.memory_bytes = *info.active_voxels / 300 * (BrickGrid::kBrickFloats * sizeof(float));  // 300: a usual filling
+    info.memory_bytes = *info.active_voxels / 300 * bytes_per_brick(BrickLayout::Quad);  // 300: a usual filling
   if (readable && scan) {
     const Voxels voxels = read_voxels(file, entry, info, {});
     scan_values(voxels.blocks, info);

@@ -1,5 +1,8 @@
 #include "renderer/sampling/sampler.h"
 
+#include <bit>
+#include <boost/random/sobol.hpp>
+
 namespace brume {
 namespace {
 
@@ -26,9 +29,10 @@ std::uint32_t reverse_bits(std::uint32_t v) {
 
 /// Owen scrambling of a bit-reversed number: every bit is flipped by a hash of the bits below it.
 /// Laine & Karras 2011, "Stratified Sampling for Stochastic Transparency", section 3.1; this hash by Vegdahl 2021,
-/// "Building a Better LK Hash". Two rounds: after one, some pairs of dimensions are correlated.
+/// "Building a Better LK Hash". Two rounds: after one, some pairs of dimensions are correlated. Bit k of the result
+/// knows the lowest bits of the seed only, so the rounds must not have the same ones.
 std::uint32_t laine_karras(std::uint32_t x, std::uint32_t seed) {
-  for (int round = 0; round < 2; ++round, seed *= 0x9e3779b9u) {
+  for (int round = 0; round < 2; ++round, seed = std::rotl(seed, 15) * 0x9e3779b9u) {
     x ^= x * 0x3d20adeau;
     x += seed;
     x *= (seed >> 16) | 1;
@@ -42,12 +46,14 @@ std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
   return reverse_bits(laine_karras(reverse_bits(x), seed));
 }
 
-/// Second dimension of the Sobol' sequence (direction numbers of the polynomial x + 1).
+/// Second dimension of the Sobol' sequence, whose matrix is Pascal's triangle modulo 2, digits in reverse.
 std::uint32_t sobol_second(std::uint32_t index) {
-  std::uint32_t result = 0;
-  for (std::uint32_t v = 0x80000000u; index != 0; index >>= 1, v ^= v >> 1)
-    if (index & 1) result ^= v;
-  return result;
+  index ^= (index & 0xaaaaaaaau) >> 1;
+  index ^= (index & 0xccccccccu) >> 2;
+  index ^= (index & 0xf0f0f0f0u) >> 4;
+  index ^= (index & 0xff00ff00u) >> 8;
+  index ^= (index & 0xffff0000u) >> 16;
+  return index;
 }
 
 struct Bits2 {
@@ -62,28 +68,102 @@ Bits2 scrambled_sobol(std::uint32_t index, std::uint64_t key) {
   const std::uint32_t i = owen_scramble(index, shuffle);
   // The first Sobol' dimension is the bit-reversed index, so one of the two reversals cancels.
   const std::uint32_t x = reverse_bits(laine_karras(i, static_cast<std::uint32_t>(more)));
-  return {x, owen_scramble(sobol_second(i), static_cast<std::uint32_t>(more >> 32))};
+  return {x, reverse_bits(laine_karras(sobol_second(i), static_cast<std::uint32_t>(more >> 32)))};
+}
+
+using Matrix = std::array<std::uint32_t, 32>;  // column j: what bit j of the index adds to the digits
+
+/// The matrices of the first dimensions, with the direction numbers of Joe & Kuo 2008 that Boost holds.
+const std::array<Matrix, Sampler::kJointDimensions>& sobol_matrices() {
+  static const auto matrices = [] {
+    std::array<Matrix, Sampler::kJointDimensions> all;
+    boost::random::sobol_engine<std::uint32_t, 32> engine(Sampler::kJointDimensions);
+    for (unsigned j = 0; j < 32; ++j) {
+      // Boost runs through the points in the order of Gray's code and leaves out the first, which is 0: this is the one
+      // whose index has bit j only.
+      engine.seed((std::uint64_t{1} << (j + 1)) - 2);
+      for (Matrix& matrix : all) matrix[j] = reverse_bits(engine());
+    }
+    return all;
+  }();
+  return matrices;
+}
+
+/// Where in the point of a pass a decision has its dimensions: the best ones, which are the first, go to what matters
+/// most. At the camera ray's vertex only, and for so many lights.
+struct Place {
+  int first = 0, each = 0, lights = 0;
+};
+constexpr int kLights = 3;
+
+constexpr std::array<Place, kDecisionCount> kPlaces = [] {
+  std::array<Place, kDecisionCount> places;
+  const auto place = [&](Decision d) -> Place& { return places[static_cast<std::size_t>(d)]; };
+  place(Decision::Pixel) = {0, 2, 1};
+  place(Decision::DensityDistance) = {2, 1, kLights};
+  place(Decision::MarchOffset) = {5, 1, 1};
+  place(Decision::LightPoint) = {6, 2, kLights};
+  place(Decision::EquiangularDistance) = {12, 1, kLights};
+  place(Decision::ShadowOffset) = {15, 1, kLights};
+  place(Decision::BounceDistance) = {18, 1, 1};
+  place(Decision::BounceDirection) = {19, 2, 1};
+  place(Decision::LightChoice) = {21, 1, 1};
+  place(Decision::BounceTechnique) = {22, 1, 1};
+  place(Decision::MediumOrSurface) = {23, 1, 1};
+  return places;
+}();
+
+/// Dimension of the decision in the point of the pass; -1 when it has none.
+int joint_dimension(Decision decision, int bounce, int index) {
+  const Place& place = kPlaces[static_cast<std::size_t>(decision)];
+  return bounce == 0 && index < place.lights ? place.first + place.each * index : -1;
 }
 
 }  // namespace
+
+Sampler::Sampler(SamplerKind kind, std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample)
+    : kind_(kind), sample_(sample), seed_key_(combine(0, seed)), pixel_key_(combine(seed_key_, pixel)), point_{} {
+  if (kind != SamplerKind::Sobol) return;
+  const auto& matrices = sobol_matrices();
+  for (std::size_t d = 0; d < point_.size(); ++d)
+    for (std::uint32_t rest = sample, j = 0; rest != 0; rest >>= 1, ++j)
+      if (rest & 1) point_[d] ^= matrices[d][j];
+}
+
+Sampler Sampler::of_pixel(std::uint32_t pixel) const {
+  Sampler other = *this;
+  other.pixel_key_ = combine(seed_key_, pixel);
+  return other;
+}
 
 std::uint64_t Sampler::dimension_key(Decision decision, int bounce, int index) const {
   const std::uint64_t dimension = (static_cast<std::uint64_t>(decision) << 56) ^
                                   (static_cast<std::uint64_t>(static_cast<std::uint32_t>(bounce)) << 24) ^
                                   static_cast<std::uint32_t>(index);
-  return combine(combine(combine(0, seed_), pixel_), dimension);
+  return combine(pixel_key_, dimension);
 }
 
-float Sampler::u1(Decision decision, int bounce, int index) const { return u2(decision, bounce, index).x; }
+float Sampler::u1(Decision decision, int bounce, int index) const {
+  if (kind_ == SamplerKind::Sobol)
+    if (const int d = joint_dimension(decision, bounce, index); d >= 0)
+      return to_unit(reverse_bits(laine_karras(point_[static_cast<std::size_t>(d)],
+                                               static_cast<std::uint32_t>(dimension_key(decision, bounce, index)))));
+  return u2(decision, bounce, index).x;
+}
 
 Vec2 Sampler::u2(Decision decision, int bounce, int index) const {
   const std::uint64_t key = dimension_key(decision, bounce, index);
-  if (kind_ == SamplerKind::Sobol) {
-    const Bits2 p = scrambled_sobol(sample_, key);
-    return {to_unit(p.x), to_unit(p.y)};
+  if (kind_ == SamplerKind::Independent) {
+    const std::uint64_t bits = combine(key, sample_);
+    return {to_unit(static_cast<std::uint32_t>(bits)), to_unit(static_cast<std::uint32_t>(bits >> 32))};
   }
-  const std::uint64_t bits = combine(key, sample_);
-  return {to_unit(static_cast<std::uint32_t>(bits)), to_unit(static_cast<std::uint32_t>(bits >> 32))};
+  if (const int d = joint_dimension(decision, bounce, index); d >= 0) {
+    const auto x = static_cast<std::size_t>(d);
+    return {to_unit(reverse_bits(laine_karras(point_[x], static_cast<std::uint32_t>(key)))),
+            to_unit(reverse_bits(laine_karras(point_[x + 1], static_cast<std::uint32_t>(key >> 32))))};
+  }
+  const Bits2 p = scrambled_sobol(sample_, key);
+  return {to_unit(p.x), to_unit(p.y)};
 }
 
 float Sampler::per_pixel(Decision decision) const {
@@ -91,3 +171,4 @@ float Sampler::per_pixel(Decision decision) const {
 }
 
 }  // namespace brume
+

@@ -1,6 +1,7 @@
 // Counter-based random numbers with one named dimension per decision.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "renderer/core/vec.h"
@@ -9,7 +10,7 @@ namespace brume {
 
 enum class SamplerKind {
   Independent,  ///< every number independent of every other: what statistics assume
-  Sobol,        ///< each decision follows its own Owen-scrambled Sobol' sequence over the passes of a pixel
+  Sobol,        ///< the passes of a pixel follow one Owen-scrambled Sobol' sequence, whose dimensions are the decisions
 };
 
 /// What a random number decides. Two decisions never share a number: the catalogue of failures has entries for
@@ -44,11 +45,17 @@ inline constexpr int kDecisionCount = static_cast<int>(Decision::MediumOrSurface
 
 /// Random numbers of one sample of one pixel. A pure function of its arguments: no state advances, so results do not
 /// depend on the order of calls, on threads or on tiles.
+///
+/// The decisions that every camera ray takes share one point of the pass, each pixel scrambling its digits in its own
+/// way: they are stratified together. What few rays decide, or far down a path, gets pairs of dimensions of its own.
 class Sampler {
  public:
-  Sampler(SamplerKind kind, std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample)
-      : kind_(kind), seed_(seed), pixel_(pixel), sample_(sample) {}
+  Sampler(SamplerKind kind, std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample);
 
+  /// The same sample of another pixel; for all pixels of a pass, because it costs less than a new one.
+  Sampler of_pixel(std::uint32_t pixel) const;
+
+  SamplerKind kind() const { return kind_; }
   std::uint32_t sample() const { return sample_; }
 
   /// In [0, 1). `bounce` counts scattered rays, `index` the light samples (or whatever repeats) at that bounce.
@@ -58,12 +65,15 @@ class Sampler {
   /// The same in every pass of this pixel; for choices that must be random over pixels but fixed over passes.
   float per_pixel(Decision decision) const;
 
+  static constexpr int kJointDimensions = 24;
+
  private:
   std::uint64_t dimension_key(Decision decision, int bounce, int index) const;
 
   SamplerKind kind_;
-  std::uint64_t seed_;
-  std::uint32_t pixel_, sample_;
+  std::uint32_t sample_;
+  std::uint64_t seed_key_, pixel_key_;
+  std::array<std::uint32_t, kJointDimensions> point_;  // of the pass, digits in reverse
 };
 
 }  // namespace brume

@@ -29,7 +29,7 @@ struct Steps {
 struct Scene {
   openvdb::FloatGrid::Ptr open;
   nanovdb::GridHandle<nanovdb::HostBuffer> nano;
-  std::shared_ptr<const BrickGrid> bricks;
+  std::vector<std::pair<std::string, std::shared_ptr<const BrickGrid>>> bricks;  // of every layout, by name
   std::vector<Steps> camera;      // 16x16 pixel tiles of a view of the whole box
   std::vector<Steps> incoherent;  // random directions from random places in the box
   std::vector<Steps> empty;       // through the table, but only through empty bricks
@@ -44,9 +44,12 @@ const Scene& scene() {
     file.open(false);
     s.open = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("density"));
     s.nano = nanovdb::openToNanoVDB(*s.open);
-    s.bricks = load_grid(path, "density").value().grid;
+    for (const bool full : {true, false}) {
+      const auto grid = load_grid(path, "density", {.full_precision = full}).value().grid;
+      s.bricks.emplace_back(to_string(grid->values().layout()), grid);
+    }
 
-    const Bounds3 box = s.bricks->support();
+    const Bounds3 box = s.bricks.front().second->support();
     const Vec3 low(box.low), high(box.high), centre = (low + high) * 0.5f;
     const Vec3 eye = centre + normalize(Vec3(1, 0.7f, 0.35f)) * static_cast<float>(1.6 * box.diagonal());
     const Vec3 forward = normalize(centre - eye), right = normalize(cross(forward, Vec3(0, 0, 1))),
@@ -111,9 +114,8 @@ template <class F> void run(benchmark::State& state, const std::vector<Steps>& r
   state.counters["cycles/sample"] = best_cycles;
 }
 
-void bricks(benchmark::State& state, const std::string& level, const std::vector<Steps>& rays) {
+void bricks(benchmark::State& state, const BrickGrid& grid, const std::string& level, const std::vector<Steps>& rays) {
   if (!force_simd_level(level).ok()) return state.SkipWithError("level not supported");
-  const BrickGrid& grid = *scene().bricks;
   alignas(64) float x[kSteps], y[kSteps], z[kSteps], density[kSteps];
   run(state, rays, [&](const Steps& ray) {
     for (int k = 0; k < kSteps; ++k) {
@@ -168,9 +170,11 @@ const bool registered = [] {
   for (const auto& [name, rays] : sets) {
     const Rays set = rays;
     const std::string suffix = std::string("/") + name;
-    for (const std::string& level : simd_levels())
-      benchmark::RegisterBenchmark(("Lookup/bricks_" + level + suffix).c_str(),
-                                   [level, set](benchmark::State& s) { bricks(s, level, scene().*set); });
+    for (std::size_t layout = 0; layout < scene().bricks.size(); ++layout)
+      for (const std::string& level : simd_levels())
+        benchmark::RegisterBenchmark(
+            ("Lookup/" + scene().bricks[layout].first + "_" + level + suffix).c_str(),
+            [=](benchmark::State& s) { bricks(s, *scene().bricks[layout].second, level, scene().*set); });
     benchmark::RegisterBenchmark(("Lookup/nanovdb" + suffix).c_str(),
                                  [set](benchmark::State& s) { nano_vdb(s, scene().*set); });
     benchmark::RegisterBenchmark(("Lookup/openvdb" + suffix).c_str(),

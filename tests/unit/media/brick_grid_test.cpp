@@ -56,10 +56,10 @@ TEST(BrickGrid, EveryBrickStoresTheFirstVoxelsOfTheNext) {
   for (int bx = 0; bx < extent.x; ++bx)
     for (int by = 0; by < extent.y; ++by)
       for (int bz = 0; bz < extent.z; ++bz, ++slot) {
-        const float* brick = grid.values() + std::ptrdiff_t{grid.table()[slot]} * BrickGrid::kBrickFloats;
+        const auto brick = static_cast<std::size_t>(grid.table()[slot]);
         for (int e = 0; e < 729; ++e) {
           const VoxelIndex local(e / 81, e / 9 % 9, e % 9);
-          ASSERT_EQ(brick[e], grid.voxel(origin + VoxelIndex(bx, by, bz) * 8 + local));
+          ASSERT_EQ(grid.values().voxel(brick, local.x, local.y, local.z), grid.voxel(origin + VoxelIndex(bx, by, bz) * 8 + local));
         }
       }
   EXPECT_EQ(grid.table()[0], 0);

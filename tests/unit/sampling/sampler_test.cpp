@@ -158,14 +158,16 @@ TEST(SobolSampler, EveryAlignedBlockOf2ToTheKNumbersHitsEveryPartOf1DOnce) {
 }
 
 TEST(SobolSampler, SixteenPointsOfAPairHitEveryElementaryInterval) {
+  // The first two dimensions of the pass's point, and a pair of its own.
+  constexpr std::pair<Decision, int> kPairs[] = {{Decision::Pixel, 0}, {Decision::LightPoint, 1}};
   for (std::uint32_t pixel = 0; pixel < 200; ++pixel)
-    for (const Decision d : {Decision::Pixel, Decision::LightPoint})
+    for (const auto& [d, bounce] : kPairs)
       for (const std::uint32_t first : {0u, 16u, 48u})
         for (int columns_log = 0; columns_log <= 4; ++columns_log) {
           const int columns = 1 << columns_log, rows = 16 / columns;
           std::vector<int> hits(16);
           for (std::uint32_t s = first; s < first + 16; ++s) {
-            const Vec2 u = Sampler(SamplerKind::Sobol, 1, pixel, s).u2(d);
+            const Vec2 u = Sampler(SamplerKind::Sobol, 1, pixel, s).u2(d, bounce);
             ++hits[static_cast<std::size_t>(static_cast<int>(u.x * static_cast<float>(columns)) * rows +
                                             static_cast<int>(u.y * static_cast<float>(rows)))];
           }

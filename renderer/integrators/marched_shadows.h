@@ -1,0 +1,36 @@
+// Light samples and their shadow rays, marched together.
+#pragma once
+
+#include "renderer/integrators/integrator.h"
+#include "renderer/march/shadow_march.h"
+#include "renderer/sampling/light_numbers.h"
+
+namespace brume {
+
+/// Collects light samples that wait for the transmittance of their shadow rays, and adds up what arrives. Lives in the
+/// arena scope that was open when it was made.
+template <int C> class MarchedShadows {
+ public:
+  explicit MarchedShadows(SampleContext& context);
+
+  /// @param carried  what the sample adds to the radiance if nothing is in the shadow ray's way
+  /// @param k  number of the sample among those of its light
+  void add(const Light& light, const Ray& shadow, Color carried, const LightNumbers& numbers, int k);
+
+  /// Of all samples so far.
+  Color light();
+
+ private:
+  static constexpr std::size_t kWaiting = 32;  // at most; with some thirty steps each they fill the look-ups' vectors
+
+  void march();
+
+  SampleContext& context_;
+  std::span<ShadowRay> rays_;
+  std::span<Color> carried_;
+  std::span<Spectrum<C>> transmittances_;
+  std::size_t waiting_ = 0;
+  Color sum_;
+};
+
+}  // namespace brume

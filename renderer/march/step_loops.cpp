@@ -1,0 +1,223 @@
+#include "renderer/march/step_loops.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "renderer/march/step_loops.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per instruction set
+
+#include <hwy/contrib/math/math-inl.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace brume::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<float, 16>;
+using DI = hn::RebindToSigned<D>;
+using V = hn::Vec<D>;
+
+HWY_INLINE int lanes() { return static_cast<int>(hn::Lanes(D())); }
+
+/// The lanes of a vector as positions in an array.
+HWY_INLINE V iota() { return hn::Iota(D(), 0); }
+
+struct Line {
+  V ox, oy, oz, dx, dy, dz;
+  HWY_INLINE explicit Line(const Ray& ray)
+      : ox(hn::Set(D(), ray.origin.x)),
+        oy(hn::Set(D(), ray.origin.y)),
+        oz(hn::Set(D(), ray.origin.z)),
+        dx(hn::Set(D(), ray.direction.x)),
+        dy(hn::Set(D(), ray.direction.y)),
+        dz(hn::Set(D(), ray.direction.z)) {}
+
+  HWY_INLINE void store(V t, float* x, float* y, float* z) const {
+    const D d;
+    hn::StoreU(hn::MulAdd(dx, t, ox), d, x);
+    hn::StoreU(hn::MulAdd(dy, t, oy), d, y);
+    hn::StoreU(hn::MulAdd(dz, t, oz), d, z);
+  }
+};
+
+void WritePointsOfSegments(const Ray& ray, const float* t, float offset, int n, float* x, float* y, float* z) {
+  const D d;
+  const Line line(ray);
+  const V at = hn::Set(d, offset);
+  for (int i = 0; i < n; i += lanes()) {
+    const V begin = hn::LoadU(d, t + i), end = hn::LoadU(d, t + i + 1);
+    line.store(hn::MulAdd(at, hn::Sub(end, begin), begin), x + i, y + i, z + i);
+  }
+}
+
+void WritePointsOfRow(const Ray& ray, const PointRow& row, float* x, float* y, float* z) {
+  const D d;
+  const Line line(ray);
+  const V first = hn::Set(d, row.first), step = hn::Set(d, row.step);
+  for (int i = 0; i < row.n; i += lanes()) {
+    const V number = hn::Add(iota(), hn::Set(d, static_cast<float>(i)));
+    line.store(hn::MulAdd(number, step, first), x + i, y + i, z + i);
+  }
+}
+
+float Sum(const float* values, int n) {
+  const D d;
+  V total = hn::Zero(d);
+  int i = 0;
+  for (; i + lanes() <= n; i += lanes()) total = hn::Add(total, hn::LoadU(d, values + i));
+  float all = hn::GetLane(hn::SumOfLanes(d, total));
+  for (; i < n; ++i) all += values[i];
+  return all;
+}
+
+void AddScaled(const float* values, float factor, int n, float* sum) {
+  const D d;
+  const V f = hn::Set(d, factor);
+  int i = 0;
+  for (; i + lanes() <= n; i += lanes())
+    hn::StoreU(hn::MulAdd(f, hn::LoadU(d, values + i), hn::LoadU(d, sum + i)), d, sum + i);
+  if (i == n) return;
+  const auto rest = hn::FirstN(d, static_cast<std::size_t>(n - i));
+  hn::BlendedStore(hn::MulAdd(f, hn::LoadU(d, values + i), hn::MaskedLoad(rest, d, sum + i)), rest, d, sum + i);
+}
+
+/// Moves lanes up: lane i gets lane i - by, the lowest ones `below`.
+class Shift {
+ public:
+  HWY_INLINE explicit Shift(int by) : indices_(hn::IndicesFromVec(D(), hn::Max(from(by), hn::Zero(DI())))) {
+    low_ = hn::RebindMask(D(), hn::Lt(from(by), hn::Zero(DI())));
+  }
+  HWY_INLINE V operator()(V v, V below) const { return hn::IfThenElse(low_, below, hn::TableLookupLanes(v, indices_)); }
+  HWY_INLINE V operator()(V v) const {
+    return hn::IfThenZeroElse(low_, hn::TableLookupLanes(v, indices_));
+  }
+
+ private:
+  static HWY_INLINE hn::Vec<DI> from(int by) { return hn::Sub(hn::Iota(DI(), 0), hn::Set(DI(), by)); }
+  decltype(hn::IndicesFromVec(D(), hn::Zero(DI()))) indices_;
+  hn::Mask<D> low_;
+};
+
+/// Combines every lane with all lanes below it. Hillis & Steele 1986, "Data Parallel Algorithms".
+class Scan {
+ public:
+  HWY_INLINE Scan() : by1(1), by2(2), by4(4), by8(8), last_(hn::IndicesFromVec(D(), hn::Set(DI(), lanes() - 1))) {}
+
+  HWY_INLINE V sums(V v) const {
+    if (lanes() > 1) v = hn::Add(v, by1(v));
+    if (lanes() > 2) v = hn::Add(v, by2(v));
+    if (lanes() > 4) v = hn::Add(v, by4(v));
+    if (lanes() > 8) v = hn::Add(v, by8(v));
+    return v;
+  }
+  /// Of values that are not negative.
+  HWY_INLINE V maxima(V v) const {
+    if (lanes() > 1) v = hn::Max(v, by1(v));
+    if (lanes() > 2) v = hn::Max(v, by2(v));
+    if (lanes() > 4) v = hn::Max(v, by4(v));
+    if (lanes() > 8) v = hn::Max(v, by8(v));
+    return v;
+  }
+  HWY_INLINE V last(V v) const { return hn::TableLookupLanes(v, last_); }
+
+  const Shift by1;
+
+ private:
+  const Shift by2, by4, by8;
+  const decltype(hn::IndicesFromVec(D(), hn::Zero(DI()))) last_;
+};
+
+/// A running sum over vectors, in double; added to sums inside a vector as two floats.
+class Carry {
+ public:
+  HWY_INLINE V plus(V within) const {
+    const float high = static_cast<float>(sum_), low = static_cast<float>(sum_ - static_cast<double>(high));
+    return hn::Add(hn::Set(D(), high), hn::Add(within, hn::Set(D(), low)));
+  }
+  HWY_INLINE void add(V last) { sum_ += static_cast<double>(hn::GetLane(last)); }
+
+ private:
+  double sum_ = 0;
+};
+
+void Attenuate(const float* t, const float* sigma_t, int n, const Attenuation& out) {
+  const D d;
+  const Scan scan;
+  Carry before;
+  const V one = hn::Set(d, 1.0f);
+  V begin_last = one;  // transmittance at the end of the vector before
+  out.tau[0] = 0;
+  out.transmittance[0] = 1;
+  for (int i = 0; i < n; i += lanes()) {
+    const V delta = hn::Sub(hn::LoadU(d, t + i + 1), hn::LoadU(d, t + i)), sigma = hn::Load(d, sigma_t + i);
+    const V x = hn::Mul(sigma, delta);
+    const V within = scan.sums(x);
+    const V depth = before.plus(within);
+    before.add(scan.last(within));
+    hn::StoreU(depth, d, out.tau + i + 1);
+
+    const V end = hn::Exp(d, hn::Neg(depth)), begin = scan.by1(end, begin_last);
+    begin_last = scan.last(end);
+    hn::StoreU(end, d, out.transmittance + i + 1);
+    // (T_begin - T_end) / sigma_t; in thin segments, where the difference would cancel, T_begin (1 - exp(-x)) / x as
+    // its series, whose next term is below 1e-9.
+    V series = hn::Set(d, 1.0f / 120);
+    series = hn::NegMulAdd(series, x, hn::Set(d, 1.0f / 24));
+    series = hn::NegMulAdd(series, x, hn::Set(d, 1.0f / 6));
+    series = hn::NegMulAdd(series, x, hn::Set(d, 0.5f));
+    series = hn::NegMulAdd(series, x, one);
+    const V thin = hn::Mul(hn::Mul(begin, delta), series);
+    const V thick = hn::Div(hn::Sub(begin, end), sigma);
+    hn::Store(hn::IfThenElse(hn::Lt(x, hn::Set(d, 0.05f)), thin, thick), d, out.length + i);
+  }
+}
+
+void RunningSum(const float* p, int n, float* cdf) {
+  const D d;
+  const Scan scan;
+  Carry before;
+  V reached = hn::Zero(d);  // all lanes
+  cdf[0] = 0;
+  for (int i = 0; i < n; i += lanes()) {
+    const V v = hn::Load(d, p + i);
+    const V within = scan.sums(v);
+    // Sums in a vector are of different groupings, which may differ by rounding: whatever p does, the CDF climbs.
+    const V climbing = hn::IfThenZeroElse(hn::Eq(v, hn::Zero(d)), before.plus(within));
+    before.add(scan.last(within));
+    const V highest = hn::Max(reached, scan.maxima(climbing));
+    reached = scan.last(highest);
+    hn::StoreU(highest, d, cdf + i + 1);
+  }
+}
+
+}  // namespace
+}  // namespace brume::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace brume {
+
+HWY_EXPORT(WritePointsOfSegments);
+HWY_EXPORT(WritePointsOfRow);
+HWY_EXPORT(Sum);
+HWY_EXPORT(AddScaled);
+HWY_EXPORT(Attenuate);
+HWY_EXPORT(RunningSum);
+
+void write_points(const Ray& ray, const float* t, float offset, int n, float* x, float* y, float* z) {
+  HWY_DYNAMIC_DISPATCH(WritePointsOfSegments)(ray, t, offset, n, x, y, z);
+}
+void write_points(const Ray& ray, const PointRow& row, float* x, float* y, float* z) {
+  HWY_DYNAMIC_DISPATCH(WritePointsOfRow)(ray, row, x, y, z);
+}
+float sum(const float* values, int n) { return HWY_DYNAMIC_DISPATCH(Sum)(values, n); }
+void add_scaled(const float* values, float factor, int n, float* sum) {
+  HWY_DYNAMIC_DISPATCH(AddScaled)(values, factor, n, sum);
+}
+void attenuate(const float* t, const float* sigma_t, int n, const Attenuation& out) {
+  HWY_DYNAMIC_DISPATCH(Attenuate)(t, sigma_t, n, out);
+}
+void running_sum(const float* p, int n, float* cdf) { HWY_DYNAMIC_DISPATCH(RunningSum)(p, n, cdf); }
+
+}  // namespace brume
+#endif  // HWY_ONCE
