@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "app/cli/console.h"
+#include "app/cli/bench.h"
 #include "app/cli/docs.h"
 #include "app/cli/info.h"
 #include "app/cli/probe.h"
@@ -246,8 +247,21 @@ Command make_info(CLI::App& root) {
   return {app, [o] { return run_info(*o); }};
 }
 
+Command make_bench(CLI::App& root) {
+  auto o = std::make_shared<BenchCommandOptions>();
+  CLI::App* app = add_command(root, "bench", "Measures how fast this machine renders", "[OPTIONS]",
+                              "Of the inner loops it also tells how fast they could be here (limit), from kernels that\n"
+                              "do the least possible work in the same process.\n\n"
+                              "Examples:\n  brume bench\n  brume bench --json --only smoke");
+  app->add_option("--only", o->only, "Only what has this in its name")->option_text("TEXT");
+  CLI::Option* json = app->add_flag("--json", o->json, "As a JSON list of {name, value, unit, limit, ratio, goal}");
+  app->add_flag("--markdown", o->markdown, "As a Markdown table")->excludes(json);
+  return {app, [o] { return run_bench_command(*o); }};
+}
+
 std::vector<Command> make_commands(CLI::App& root) {
-  std::vector<Command> commands{make_render(root), make_probe(root), make_snapshot(root), make_info(root)};
+  std::vector<Command> commands{make_render(root), make_probe(root), make_snapshot(root), make_info(root),
+                                make_bench(root)};
   commands.push_back(
       {add_command(root, "schema", "Prints the JSON Schema of scene files, for editors", "> brume.schema.json"),
        run_schema});

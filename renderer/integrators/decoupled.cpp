@@ -23,7 +23,8 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
     const std::optional<SurfaceHit> surface = close(ray, scene);
 
     // record
-    const MarchSettings settings{scene.step_size, sampler.u1(Decision::MarchOffset, bounce), scene.render.time};
+    const MarchSettings settings{scene.step_size, sampler.u1(Decision::MarchOffset, bounce), scene.render.time,
+                                 scene.render.distance_sampling == DistanceSampling::Product};
     MarchRecord<C> rec = record_ray<C>(ray, settings, context);
     // distribute
     if (!rec.empty()) distribute(rec, beta, context.arena);
@@ -34,12 +35,14 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
     }
 
     // estimate
-    MarchedShadows<C> shadows(context);
+    const int light_samples = scene.render.light_samples.value_or(bounce == 0 ? scene.balanced_light_samples : 1);
+    MarchedShadows<C> shadows(bounce, context);
     if (!rec.empty()) {
       radiance += beta * emitted_radiance(rec);
-      if (rec.scattered() > 0) direct_light(rec, ray, beta, bounce, context, shadows);
+      if (rec.scattered() > 0) direct_light(rec, ray, beta, bounce, light_samples, context, shadows);
     }
-    if (surface) light_at_surface<C>(*surface, beta * to_color(transmittance(rec)), bounce, 1, context, shadows);
+    if (surface)
+      light_at_surface<C>(*surface, beta * to_color(transmittance(rec)), bounce, 1, light_samples, context, shadows);
     radiance += shadows.light();
 
     // bounce

@@ -50,7 +50,7 @@ template <int C> struct Leg {
     if (is_black(value)) return {};
     TrackedShadows<C> shadows(bounce, context);
     for_light_samples(
-        bounce, 0, context.scene.render.light_samples, context, [&](const Light& light, float factor, const LightNumbers& numbers, int k) {
+        bounce, 0, light_samples(context.scene), context, [&](const Light& light, float factor, const LightNumbers& numbers, int k) {
           const LightPoint point = light.sample_point(numbers.point(k));
           const IncomingLight in = LightTechnique<C>(light, context, bounce, numbers.index(k)).draw(point, x, phase);
           if (is_black(in.scattered)) return;
@@ -66,7 +66,7 @@ template <int C> struct Leg {
   Color about_lights(Interval inside) const {
     TrackedShadows<C> shadows(bounce, context);
     for_light_samples(
-        bounce, 1, context.scene.render.light_samples, context, [&](const Light& light, float factor, const LightNumbers& numbers, int k) {
+        bounce, 1, light_samples(context.scene), context, [&](const Light& light, float factor, const LightNumbers& numbers, int k) {
           const LightPoint point = light.sample_point(numbers.point(k));
           if (point.kind != LightPoint::Kind::Finite) return;
           const Interval lit = intersect(inside, light.lit_part(point, {ray.origin, ray.direction, inside}));
@@ -151,7 +151,7 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
       path.f = path.f * n;
       path.p = path.p * n;
       TrackedShadows<C> shadows(bounce, context);
-      light_at_surface<C>(*surface, to_color(path.f) / mean_of(path.p), bounce, 2, context, shadows);
+      light_at_surface<C>(*surface, to_color(path.f) / mean_of(path.p), bounce, 2, light_samples(scene), context, shadows);
       radiance += shadows.light();
       if (!turn(surface->position, DiffuseReflection<C>(surface->normal, surface->albedo))) return radiance;
     }

@@ -12,6 +12,9 @@ namespace brume {
 /// @return the factor of what survives; 0 ends the path
 float roulette(Color beta, int bounce, const SampleContext& context);
 
+/// Light samples of each light where every step or collision is lit.
+inline int light_samples(const Scene& scene) { return scene.render.light_samples.value_or(1); }
+
 /// The channel that leads a tracked path: drawn where there are several, each with the same probability.
 template <int C> int leading_channel(const Sampler& sampler) {
   return C == 1 ? 0 : std::min(static_cast<int>(C * sampler.u1(Decision::Channel)), C - 1);
@@ -83,11 +86,11 @@ void light_at_point(Vec3 x, const S& scatterer, Color factor, int bounce, int pl
 
 /// The same for the surface that closes a ray.
 template <int C, class Shadows>
-void light_at_surface(const SurfaceHit& surface, Color factor, int bounce, int place, SampleContext& context,
-                      Shadows& shadows) {
+void light_at_surface(const SurfaceHit& surface, Color factor, int bounce, int place, int samples,
+                      SampleContext& context, Shadows& shadows) {
   if (is_black(surface.albedo)) return;
   light_at_point<C>(surface.position, DiffuseReflection<C>(surface.normal, surface.albedo), factor, bounce, place,
-                    context.scene.render.light_samples, context, shadows);
+                    samples, context, shadows);
 }
 
 }  // namespace brume

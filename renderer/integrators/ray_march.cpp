@@ -11,7 +11,8 @@ namespace brume {
 /// Light samples whose transmittance is marched, or taken from a map.
 template <int C> class RayMarchIntegrator::Shadows {
  public:
-  Shadows(const RayMarchIntegrator& integrator, SampleContext& context) : integrator_(integrator), scene_(context.scene), marched_(context) {}
+  Shadows(const RayMarchIntegrator& integrator, int bounce, SampleContext& context)
+      : integrator_(integrator), scene_(context.scene), marched_(bounce, context) {}
 
   void add(const Light& light, const Ray& shadow, Color carried, const LightNumbers& numbers, int k) {
     if (const DeepShadowMap* map = integrator_.shadow_map(scene_, light))
@@ -44,7 +45,7 @@ template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context
       radiance = visible_lights(scene, ray, surface, [&](float t) { return to_color(transmittance_to(rec, t)); });
     }
     if (!rec.empty()) radiance += beta * emitted_radiance(rec);
-    Shadows<C> shadows(*this, context);
+    Shadows<C> shadows(*this, bounce, context);
 
     const bool scatters = !rec.empty() && rec.scattered() > 0;
     for (int i = 0; scatters && i < rec.n; ++i) {
@@ -58,10 +59,10 @@ template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context
       }
       if (is_black(scattered)) continue;
       const PhaseMixture<C> phase(scene, ray.direction, rec, i, context.arena);
-      light_at_point<C>(ray.at(at.t), phase, beta * scattered, bounce, i, scene.render.light_samples, context, shadows);
+      light_at_point<C>(ray.at(at.t), phase, beta * scattered, bounce, i, light_samples(scene), context, shadows);
     }
     if (surface)
-      light_at_surface<C>(*surface, beta * to_color(transmittance(rec)), bounce, rec.n, context, shadows);
+      light_at_surface<C>(*surface, beta * to_color(transmittance(rec)), bounce, rec.n, light_samples(scene), context, shadows);
     radiance += shadows.light();
     if (bounce == scene.render.bounces) return radiance;
     if (!scatter(rec, surface, ray, beta, bounce, context)) return radiance;

@@ -21,7 +21,7 @@ template <int C> struct Marching {
   Color beta;
   Spectrum<C> p;   // per channel: pdf of the path so far when that channel leads, relative
   int leader = 0;  // the channel whose transmittance the random numbers are compared with
-  MarchedShadows<C> shadows{context};
+  MarchedShadows<C> shadows{bounce, context};
   Color radiance = {};  // emission
 
   // The place where the path may go on.
@@ -76,7 +76,7 @@ template <int C> struct Marching {
     if (!(pdf > 0)) return;
     value *= 1 / pdf;
     const int n = samples();
-    light_at_surface<C>(surface, value * (static_cast<float>(n - k) / static_cast<float>(n)), bounce, n, context,
+    light_at_surface<C>(surface, value * (static_cast<float>(n - k) / static_cast<float>(n)), bounce, n, n, context,
                         shadows);
     if (chosen >= k) go_on(surface.position, DiffuseReflection<C>(surface.normal, surface.albedo), value, tracked, pdf);
   }
@@ -89,7 +89,8 @@ template <int C> struct Marching {
     for (int c = 0; c < C; ++c) next_p[c] = tracked[c] / pdf;
   }
 
-  int samples() const { return context.scene.render.light_samples; }
+  /// Distances on a ray, each with one sample of each light.
+  int samples() const { return light_samples(context.scene); }
 
   /// @param surface  that closes the ray
   void march(const std::optional<SurfaceHit>& surface) {

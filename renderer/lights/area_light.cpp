@@ -34,6 +34,14 @@ std::optional<LightHit> AreaLight::hit(const Ray& ray) const {
                   {LightPoint::Kind::Finite, ray.at(met->t), {}, met->normal}};
 }
 
+std::optional<LightPivot> AreaLight::pivot() const {
+  return LightPivot{.position = middle_,
+                    .radius = 0.25f * std::sqrt(area_),
+                    .normal = plane_normal(),
+                    .two_sided = two_sided_,
+                    .intensity = radiance_ * area_};
+}
+
 float AreaLight::solid_angle(Vec3 x) const {
   const float half_space = 2 * kPi, d2 = length_squared(middle_ - x);
   return half_space * d2 > area_ ? area_ / d2 : half_space;

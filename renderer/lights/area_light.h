@@ -15,6 +15,7 @@ class AreaLight : public Light {
   Interval lit_part(const LightPoint& point, const Ray& ray) const final;
   std::optional<LightHit> hit(const Ray& ray) const final;
   float solid_angle(Vec3 x) const override;
+  std::optional<LightPivot> pivot() const final;
 
  protected:
   /// @param middle  of the surface
@@ -23,6 +24,9 @@ class AreaLight : public Light {
 
   /// The nearest place inside ray.span where the ray meets the surface, whichever side it comes from.
   virtual std::optional<SurfaceCrossing> meet(const Ray& ray) const = 0;
+
+  /// Unit normal of the lit side where all of the surface lies in a plane; 0 elsewhere.
+  virtual Vec3 plane_normal() const { return {}; }
 
   float sampled_area() const { return area_; }
   Vec3 middle() const { return middle_; }

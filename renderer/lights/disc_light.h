@@ -17,6 +17,7 @@ class DiscLight final : public AreaLight {
 
  private:
   std::optional<SurfaceCrossing> meet(const Ray& ray) const override;
+  Vec3 plane_normal() const override { return frame_.n; }
 
   Vec3 center_;
   Frame frame_;

@@ -43,6 +43,15 @@ struct LightHit {
   LightPoint point = {};
 };
 
+/// Where a light with a place is, roughly: what points may receive from it is weighed by this.
+struct LightPivot {
+  Vec3 position;
+  float radius = 0;  ///< world units: nearer than this 1/r^2 no longer tells what is received
+  Vec3 normal = {};  ///< unit, of the lit side of a flat light; 0 for others
+  bool two_sided = false;
+  Color intensity = {};  ///< W/sr, along the normal of a flat light
+};
+
 /// Immutable; any thread.
 class Light {
  public:
@@ -56,6 +65,9 @@ class Light {
 
   /// The part of the ray that `point` can light at all (one side of a quad, the inside of a cone).
   virtual Interval lit_part(const LightPoint& point, const Ray& ray) const;
+
+  /// Nothing for lights without a place.
+  virtual std::optional<LightPivot> pivot() const { return std::nullopt; }
 
   /// Radiance of an environment that is the same all around; black for every other light.
   virtual Color environment_radiance() const { return {}; }

@@ -12,6 +12,7 @@ class QuadLight final : public AreaLight {
 
  private:
   std::optional<SurfaceCrossing> meet(const Ray& ray) const override;
+  Vec3 plane_normal() const override { return normal_; }
 
   Vec3 corner_, edge_u_, edge_v_;
   Vec3 normal_;

@@ -39,15 +39,23 @@ template <int C> RayPoint<C> evaluate(const MarchRecord<C>& rec, float t, int se
   return point;
 }
 
+DrawnSegment draw_segment(const float* cdf, int n, float u) {
+  const float target = u * cdf[n];
+  // Segments of no weight have cdf[i] == cdf[i + 1] and are stepped over, but for a target that was rounded up to the
+  // very end.
+  int i = segment_of(cdf, n, target);
+  while (i > 0 && cdf[i + 1] <= cdf[i]) --i;
+  return {i, std::clamp((target - cdf[i]) / (cdf[i + 1] - cdf[i]), 0.0f, 1.0f)};
+}
+
 template <int C> RayPoint<C> DensitySampling<C>::sample(float u) const {
+  const DrawnSegment drawn = draw_segment(record_.cdf, record_.n, u);
+  return sample_in(drawn.segment, drawn.rest);
+}
+
+template <int C> RayPoint<C> DensitySampling<C>::sample_in(int segment, float v) const {
   const MarchRecord<C>& rec = record_;
-  const float target = u * rec.scattered();
-  // Segments that scatter nothing have cdf[i] == cdf[i + 1] and are stepped over, but for a target that was rounded up
-  // to the very end.
-  auto i = static_cast<std::size_t>(segment_of(rec.cdf, rec.n, target));
-  while (i > 0 && rec.cdf[i + 1] <= rec.cdf[i]) --i;
-  const float p = rec.cdf[i + 1] - rec.cdf[i];
-  float v = std::clamp((target - rec.cdf[i]) / p, 0.0f, 1.0f);
+  const auto i = static_cast<std::size_t>(segment);
 
   // The channel whose exponential is inverted, in proportion to its share of P_i; v is stretched to serve again.
   std::size_t channel = 0;
@@ -68,13 +76,13 @@ template <int C> RayPoint<C> DensitySampling<C>::sample(float u) const {
   const float here = transmittance[0] - v * (transmittance[0] - transmittance[1]);
   if (x < 0.05f || !(here > 0)) {
     const float s = x < 0.05f ? delta * thin_inverse(v, x) : -std::log1p(v * std::expm1(-x)) / sigma;
-    return evaluate(rec, std::clamp(begin + s, begin, rec.t[i + 1]), static_cast<int>(i));
+    return evaluate(rec, std::clamp(begin + s, begin, rec.t[i + 1]), segment);
   }
   const float t = std::clamp(begin + std::log(transmittance[0] / here) / sigma, begin, rec.t[i + 1]);
   if constexpr (C == 1)
-    return {t, static_cast<int>(i), {rec.sigma_s[0][i]}, {here}};
+    return {t, segment, {rec.sigma_s[0][i]}, {here}};
   else
-    return evaluate(rec, t, static_cast<int>(i));
+    return evaluate(rec, t, segment);
 }
 
 template <int C> float DensitySampling<C>::pdf(const RayPoint<C>& point) const {

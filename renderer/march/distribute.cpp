@@ -15,12 +15,11 @@ template <int C> void distribute(MarchRecord<C>& rec, Color throughput, Arena& a
     rec.length[c] = arena.alloc_span<float>(n).data();
     attenuate(rec.t, rec.sigma_t[c], rec.n, {rec.tau[c], rec.transmittance[c], rec.length[c]});
   }
-  const ArenaScope scope(arena);
   float* p = arena.alloc_span<float>(n).data();
-  for (std::size_t i = 0; i < n; ++i) p[i] = rec.weight.v[0] * rec.sigma_s[0][i] * rec.length[0][i];
-  for (std::size_t c = 1; c < C; ++c)
-    for (std::size_t i = 0; i < n; ++i) p[i] += rec.weight.v[c] * rec.sigma_s[c][i] * rec.length[c][i];
-  running_sum(p, rec.n, cdf);
+  ScatteringChannel channels[C];
+  for (std::size_t c = 0; c < C; ++c) channels[c] = {rec.weight.v[c], rec.sigma_s[c], rec.length[c]};
+  running_sum(channels, rec.n, p, cdf);
+  rec.p = p;
   rec.cdf = cdf;
 }
 

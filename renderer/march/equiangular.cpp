@@ -2,14 +2,19 @@
 
 namespace brume {
 
-// In double: with the pivot 1e-6 of the span from the ray, float angles would leave a handful of distinct distances.
-EquiangularSampling::EquiangularSampling(const Ray& ray, Vec3 pivot, Interval span) : span_(span) {
+EquiangularSampling::Foot EquiangularSampling::foot_of(const Ray& ray, Vec3 pivot, Interval span) {
   const Vec3d to_pivot = Vec3d(pivot) - Vec3d(ray.origin), direction(ray.direction);
-  foot_ = dot(to_pivot, direction);
-  a_ = span.begin - foot_;
-  b_ = span.end - foot_;
-  const double reach = std::max(std::abs(a_), std::abs(b_));
-  distance_ = std::max(length(to_pivot - direction * foot_), 1e-7 * reach);
+  const double foot = dot(to_pivot, direction);
+  const double reach = std::max(std::abs(span.begin - foot), std::abs(span.end - foot));
+  return {foot, std::max(length(to_pivot - direction * foot), 1e-7 * reach)};
+}
+
+EquiangularSampling::EquiangularSampling(const Ray& ray, Vec3 pivot, Interval span)
+    : EquiangularSampling(foot_of(ray, pivot, span), span) {}
+
+// In double: with the pivot 1e-6 of the span from the ray, float angles would leave a handful of distinct distances.
+EquiangularSampling::EquiangularSampling(Foot foot, Interval span)
+    : span_(span), foot_(foot.t), distance_(foot.distance), a_(span.begin - foot.t), b_(span.end - foot.t) {
   d_theta_ = std::atan2(distance_ * (b_ - a_), distance_ * distance_ + a_ * b_);
   if (!(d_theta_ > 1e-30) || !std::isfinite(d_theta_)) d_theta_ = 0;
 }

@@ -27,6 +27,13 @@ class EquiangularSampling {
   /// @param span  world units, not empty
   EquiangularSampling(const Ray& ray, Vec3 pivot, Interval span);
 
+  /// A pivot seen from the ray.
+  struct Foot {
+    double t;         ///< of the point of the ray that is next to it
+    double distance;  ///< from there, > 0
+  };
+  EquiangularSampling(Foot foot, Interval span);
+
   /// @param u  in [0,1)
   DistanceSample sample(float u) const;
 
@@ -34,6 +41,7 @@ class EquiangularSampling {
   float pdf(float t) const;
 
  private:
+  static Foot foot_of(const Ray& ray, Vec3 pivot, Interval span);
   double pdf_at(double s) const;
 
   Interval span_;

@@ -42,6 +42,53 @@ PointBatch lookup_points(const Stretch& stretch, const float* t, const Ray& ray,
   return {x, y, z, stretch.count, settings.time};
 }
 
+/// Writes a stretch's part of the record.
+template <int C>
+void look_up(const Stretch& stretch, std::span<const Medium> media, const Presence& presence,
+             const RecordContents& contents, const Ray& ray, const MarchSettings& settings, const MarchRecord<C>& rec,
+             Arena& arena, MarchCounts& counts) {
+  const ArenaScope scope(arena);
+  const float middle = 0.5f * (stretch.span.begin + stretch.span.end);
+  const int n = stretch.count, first = stretch.first;
+  const auto size = static_cast<std::size_t>(n);
+  // Constant shaders are not asked at all.
+  const PointBatch points =
+      stretch.uniform ? PointBatch{} : lookup_points(stretch, rec.t + first, ray, settings, arena);
+  float* const density = arena.alloc_span<float>(size).data();
+  bool begun = false;
+  for (std::size_t m = 0; m < media.size(); ++m) {
+    const Medium& medium = media[m];
+    if (!presence.contains(m, middle)) continue;
+    if (medium.traits.constant) {
+      std::fill_n(density, size, 1.0f);
+    } else {
+      medium.shader->density(points, density);
+      counts.lookups += size;
+    }
+    const auto put = begun ? add_scaled : set_scaled;
+    begun = true;
+    for (int c = 0; c < C; ++c) {
+      const auto channel = static_cast<std::size_t>(c);
+      put(density, medium.sigma_t[c], n, rec.sigma_t[channel] + first);
+      put(density, medium.sigma_s[c], n, rec.sigma_s[channel] + first);
+    }
+    if (contents.overlap) set_scaled(density, 1, n, rec.medium_density[m] + first);
+    if (!contents.emission || !medium.emits()) continue;
+    EmissionBatch glow{density, density, density};
+    if (medium.traits.own_emission) {
+      glow = alloc_emission(size, arena);
+      medium.shader->emission(points, glow);
+      counts.lookups += size;
+    }
+    for (int c = 0; c < 3; ++c) {
+      const auto channel = static_cast<std::size_t>(c);
+      add_scaled(glow[channel], medium.emission[c], n, rec.emission[channel] + first);
+    }
+  }
+  for (std::size_t c = 0; c < C && !begun; ++c)
+    std::fill_n(rec.sigma_t[c] + first, n, 0.0f), std::fill_n(rec.sigma_s[c] + first, n, 0.0f);
+}
+
 }  // namespace
 
 template <int C>
@@ -58,67 +105,28 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
     const float middle = 0.5f * (stretch.span.begin + stretch.span.end);
     for (std::size_t m = 0; m < media.size(); ++m)
       if (!media[m].traits.constant && presence.contains(m, middle)) stretch.uniform = false;
-    if (settings.split_homogeneous) stretch.uniform = false;
-    if (!stretch.uniform) stretch.count = segment_count(stretch.span.length(), stretch.step, counts);
+    if (!stretch.uniform || settings.split_homogeneous) stretch.count = segment_count(stretch.span.length(), stretch.step, counts);
+    rec.longest = std::max(rec.longest, stretch.count == 1 ? stretch.span.length() : stretch.step);
     rec.n += stretch.count;
   }
   counts.segments += static_cast<std::uint64_t>(rec.n);
 
   const auto n = static_cast<std::size_t>(rec.n);
-  const auto zeros = [&] {
-    float* values = arena.alloc_span<float>(n).data();
-    std::fill_n(values, n, 0.0f);
-    return values;
-  };
-  for (int c = 0; c < C; ++c)
-    rec.sigma_t[static_cast<std::size_t>(c)] = zeros(), rec.sigma_s[static_cast<std::size_t>(c)] = zeros();
+  const auto alloc = [&] { return arena.alloc_span<float>(n).data(); };
+  for (float*& channel : rec.sigma_t) channel = alloc();
+  for (float*& channel : rec.sigma_s) channel = alloc();
   if (contents.emission)
-    for (float*& channel : rec.emission) channel = zeros();
+    for (float*& channel : rec.emission) std::fill_n(channel = alloc(), n, 0.0f);
   if (contents.overlap) {
     rec.medium_density = arena.alloc_span<float*>(media.size()).data();
-    for (std::size_t m = 0; m < media.size(); ++m) rec.medium_density[m] = zeros();
+    for (std::size_t m = 0; m < media.size(); ++m) std::fill_n(rec.medium_density[m] = alloc(), n, 0.0f);
   }
   float* t = arena.alloc_span<float>(n + 16).data();  // loops read whole vectors, up to 16, from t + 1
-  for (const Stretch& s : stretches)
-    for (int i = 0; i < s.count; ++i) t[s.first + i] = s.span.begin + static_cast<float>(i) * s.step;
+  for (const Stretch& s : stretches) write_edges(s.span.begin, s.step, s.count, t + s.first);
   t[n] = stretches.back().span.end;
   rec.t = t;
-
-  for (const Stretch& stretch : stretches) {
-    const ArenaScope scope(arena);
-    const float middle = 0.5f * (stretch.span.begin + stretch.span.end);
-    const auto first = static_cast<std::size_t>(stretch.first), count = static_cast<std::size_t>(stretch.count);
-    // One look-up in the middle will do for a homogeneous stretch; constant shaders are not asked at all.
-    const PointBatch points = stretch.uniform ? PointBatch{} : lookup_points(stretch, t + first, ray, settings, arena);
-    const std::span<float> density = arena.alloc_span<float>(count);
-    for (std::size_t m = 0; m < media.size(); ++m) {
-      const Medium& medium = media[m];
-      if (!presence.contains(m, middle)) continue;
-      if (medium.traits.constant) {
-        std::fill(density.begin(), density.end(), 1.0f);
-      } else {
-        medium.shader->density(points, density.data());
-        counts.lookups += count;
-      }
-      for (int c = 0; c < C; ++c) {
-        const auto channel = static_cast<std::size_t>(c);
-        add_scaled(density.data(), medium.sigma_t[c], stretch.count, rec.sigma_t[channel] + first);
-        add_scaled(density.data(), medium.sigma_s[c], stretch.count, rec.sigma_s[channel] + first);
-      }
-      if (contents.overlap) add_scaled(density.data(), 1.0f, stretch.count, rec.medium_density[m] + first);
-      if (!contents.emission || !medium.emits()) continue;
-      EmissionBatch glow{density.data(), density.data(), density.data()};
-      if (medium.traits.own_emission) {
-        glow = alloc_emission(count, arena);
-        medium.shader->emission(points, glow);
-        counts.lookups += count;
-      }
-      for (int c = 0; c < 3; ++c) {
-        const auto channel = static_cast<std::size_t>(c);
-        add_scaled(glow[channel], medium.emission[c], stretch.count, rec.emission[channel] + first);
-      }
-    }
-  }
+  for (const Stretch& stretch : stretches)
+    look_up(stretch, media, presence, contents, ray, settings, rec, arena, counts);
   return rec;
 }
 

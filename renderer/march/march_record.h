@@ -23,7 +23,7 @@ struct MarchSettings {
   float step;                      ///< world units, > 0
   float offset;                    ///< in [0,1): where inside every segment of this ray the medium is looked up
   float time;                      ///< seconds
-  bool split_homogeneous = false;  ///< step through homogeneous stretches too, where lighting is sampled at every step
+  bool split_homogeneous = false;  ///< step through homogeneous stretches too, where every step counts for the lighting
 };
 
 /// A stretch of medium with more steps than this is marched with a longer step, and counted: the volume never ends in
@@ -42,10 +42,13 @@ template <int C> struct MarchRecord {
   std::array<float*, 3> emission = {};  ///< [n] W/(sr m^3); null where no medium emits
   float** medium_density = nullptr;     ///< [media][n]; null unless several media may share a point
 
+  float longest = 0;  ///< bound of the segments' lengths
+
   std::array<float*, C> tau = {};  ///< [n + 1] optical depth from t[0] to each edge
   std::array<float*, C> transmittance = {};  ///< [n + 1] exp(-tau)
   std::array<float*, C> length = {};         ///< [n] integral of the transmittance over the segment
-  const float* cdf = nullptr;  ///< [n + 1] running sum of P_i, not normalised
+  const float* p = nullptr;    ///< [n] P_i: what segment i scatters, not normalised
+  const float* cdf = nullptr;  ///< [n + 1] running sum of P_i
   Spectrum<C> weight = {};     ///< of the channels in P_i
 
   bool empty() const { return n == 0; }

@@ -4,7 +4,6 @@
 #define HWY_TARGET_INCLUDE "renderer/march/step_loops.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per instruction set
 
-#include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -70,15 +69,30 @@ float Sum(const float* values, int n) {
   return all;
 }
 
-void AddScaled(const float* values, float factor, int n, float* sum) {
+void WriteEdges(float begin, float step, int n, float* t) {
   const D d;
-  const V f = hn::Set(d, factor);
+  const V first = hn::Set(d, begin), all = hn::Set(d, step);
+  for (int i = 0; i < n; i += lanes())
+    hn::StoreU(hn::MulAdd(hn::Add(iota(), hn::Set(d, static_cast<float>(i))), all, first), d, t + i);
+}
+
+/// Calls f(i) -> V for whole vectors and stores them; of the last one, what is left.
+template <class F> HWY_INLINE void store_each(int n, float* out, const F& f) {
+  const D d;
   int i = 0;
-  for (; i + lanes() <= n; i += lanes())
-    hn::StoreU(hn::MulAdd(f, hn::LoadU(d, values + i), hn::LoadU(d, sum + i)), d, sum + i);
-  if (i == n) return;
-  const auto rest = hn::FirstN(d, static_cast<std::size_t>(n - i));
-  hn::BlendedStore(hn::MulAdd(f, hn::LoadU(d, values + i), hn::MaskedLoad(rest, d, sum + i)), rest, d, sum + i);
+  for (; i + lanes() <= n; i += lanes()) hn::StoreU(f(i), d, out + i);
+  if (i < n) hn::BlendedStore(f(i), hn::FirstN(d, static_cast<std::size_t>(n - i)), d, out + i);
+}
+
+void SetScaled(const float* values, float factor, int n, float* out) {
+  const V all = hn::Set(D(), factor);
+  store_each(n, out, [&](int i) HWY_ATTR { return hn::Mul(all, hn::LoadU(D(), values + i)); });
+}
+
+void AddScaled(const float* values, float factor, int n, float* out) {
+  const V all = hn::Set(D(), factor);
+  store_each(n, out,
+             [&](int i) HWY_ATTR { return hn::MulAdd(all, hn::LoadU(D(), values + i), hn::LoadU(D(), out + i)); });
 }
 
 /// Moves lanes up: lane i gets lane i - by, the lowest ones `below`.
@@ -127,8 +141,19 @@ class Scan {
   const decltype(hn::IndicesFromVec(D(), hn::Zero(DI()))) last_;
 };
 
-/// A running sum over vectors, in double; added to sums inside a vector as two floats.
-class Carry {
+/// A running sum over vectors.
+class ShortCarry {
+ public:
+  HWY_INLINE ShortCarry() : sum_(hn::Zero(D())) {}
+  HWY_INLINE V plus(V within) const { return hn::Add(sum_, within); }
+  HWY_INLINE void add(V last) { sum_ = hn::Add(sum_, last); }
+
+ private:
+  V sum_;  // all lanes
+};
+
+/// The same in double, for so many vectors that their roundings would show; added to sums inside a vector as two floats.
+class LongCarry {
  public:
   HWY_INLINE V plus(V within) const {
     const float high = static_cast<float>(sum_), low = static_cast<float>(sum_ - static_cast<double>(high));
@@ -140,7 +165,33 @@ class Carry {
   double sum_ = 0;
 };
 
-void Attenuate(const float* t, const float* sigma_t, int n, const Attenuation& out) {
+constexpr int kShort = 512;  // steps
+
+/// exp(-x) for x >= 0, relative error below 2e-7: 2^k exp(r), the second as its series.
+HWY_INLINE V exp_minus(V x) {
+  const D d;
+  const V k = hn::Round(hn::Mul(x, hn::Set(d, -1.44269504f)));
+  V r = hn::NegMulAdd(k, hn::Set(d, 0.693145752f), hn::Neg(x));
+  r = hn::NegMulAdd(k, hn::Set(d, 1.42860677e-6f), r);
+  V p = hn::Set(d, 1.0f / 720);
+  p = hn::MulAdd(p, r, hn::Set(d, 1.0f / 120));
+  p = hn::MulAdd(p, r, hn::Set(d, 1.0f / 24));
+  p = hn::MulAdd(p, r, hn::Set(d, 1.0f / 6));
+  p = hn::MulAdd(p, r, hn::Set(d, 0.5f));
+  p = hn::MulAdd(p, r, hn::Set(d, 1.0f));
+  p = hn::MulAdd(p, r, hn::Set(d, 1.0f));
+  const auto power = hn::BitCast(d, hn::ShiftLeft<23>(hn::Add(hn::ConvertTo(DI(), k), hn::Set(DI(), 127))));
+  return hn::IfThenElseZero(hn::Lt(x, hn::Set(d, 87.0f)), hn::Mul(p, power));
+}
+
+/// 1 / x to some roundings; for 0 whatever.
+HWY_INLINE V reciprocal(V x) {
+  const V guess = hn::ApproximateReciprocal(x);
+  return hn::Mul(guess, hn::NegMulAdd(x, guess, hn::Set(D(), 2.0f)));
+}
+
+template <class Carry>
+HWY_INLINE void attenuate_with(const float* t, const float* sigma_t, int n, const Attenuation& out) {
   const D d;
   const Scan scan;
   Carry before;
@@ -156,7 +207,7 @@ void Attenuate(const float* t, const float* sigma_t, int n, const Attenuation& o
     before.add(scan.last(within));
     hn::StoreU(depth, d, out.tau + i + 1);
 
-    const V end = hn::Exp(d, hn::Neg(depth)), begin = scan.by1(end, begin_last);
+    const V end = exp_minus(depth), begin = scan.by1(end, begin_last);
     begin_last = scan.last(end);
     hn::StoreU(end, d, out.transmittance + i + 1);
     // (T_begin - T_end) / sigma_t; in thin segments, where the difference would cancel, T_begin (1 - exp(-x)) / x as
@@ -167,27 +218,55 @@ void Attenuate(const float* t, const float* sigma_t, int n, const Attenuation& o
     series = hn::NegMulAdd(series, x, hn::Set(d, 0.5f));
     series = hn::NegMulAdd(series, x, one);
     const V thin = hn::Mul(hn::Mul(begin, delta), series);
-    const V thick = hn::Div(hn::Sub(begin, end), sigma);
+    const V thick = hn::Mul(hn::Sub(begin, end), reciprocal(sigma));
     hn::Store(hn::IfThenElse(hn::Lt(x, hn::Set(d, 0.05f)), thin, thick), d, out.length + i);
   }
 }
 
-void RunningSum(const float* p, int n, float* cdf) {
+void Attenuate(const float* t, const float* sigma_t, int n, const Attenuation& out) {
+  n <= kShort ? attenuate_with<ShortCarry>(t, sigma_t, n, out) : attenuate_with<LongCarry>(t, sigma_t, n, out);
+}
+
+/// Of p(i), a vector.
+template <class Carry, class P> HWY_INLINE void running_sum_with(int n, float* cdf, const P& p) {
   const D d;
   const Scan scan;
   Carry before;
   V reached = hn::Zero(d);  // all lanes
   cdf[0] = 0;
   for (int i = 0; i < n; i += lanes()) {
-    const V v = hn::Load(d, p + i);
+    const V v = p(i);
     const V within = scan.sums(v);
-    // Sums in a vector are of different groupings, which may differ by rounding: whatever p does, the CDF climbs.
-    const V climbing = hn::IfThenZeroElse(hn::Eq(v, hn::Zero(d)), before.plus(within));
+    V sums = before.plus(within);
     before.add(scan.last(within));
-    const V highest = hn::Max(reached, scan.maxima(climbing));
-    reached = scan.last(highest);
-    hn::StoreU(highest, d, cdf + i + 1);
+    // Sums in a vector are of different groupings, which may differ by rounding: whatever p does, the CDF climbs, and
+    // only where there is something to add.
+    const V below = scan.by1(sums, reached);
+    const auto flat = hn::Eq(v, hn::Zero(d));
+    if (HWY_UNLIKELY(!hn::AllFalse(d, hn::Or(hn::Lt(sums, below), hn::And(flat, hn::Ne(sums, below))))))
+      sums = hn::Max(reached, scan.maxima(hn::IfThenZeroElse(flat, sums)));
+    reached = scan.last(sums);
+    hn::StoreU(sums, d, cdf + i + 1);
   }
+}
+
+template <class P> HWY_INLINE void running_sum_of(int n, float* cdf, const P& p) {
+  n <= kShort ? running_sum_with<ShortCarry>(n, cdf, p) : running_sum_with<LongCarry>(n, cdf, p);
+}
+
+void RunningSum(const float* p, int n, float* cdf) {
+  running_sum_of(n, cdf, [&](int i) HWY_ATTR { return hn::Load(D(), p + i); });
+}
+
+void RunningSumOfChannels(std::span<const ScatteringChannel> channels, int n, float* p, float* cdf) {
+  running_sum_of(n, cdf, [&](int i) HWY_ATTR {
+    const D d;
+    V sum = hn::Zero(d);
+    for (const ScatteringChannel& c : channels)
+      sum = hn::MulAdd(hn::Mul(hn::Set(d, c.weight), hn::Load(d, c.sigma_s + i)), hn::Load(d, c.length + i), sum);
+    hn::Store(sum, d, p + i);
+    return sum;
+  });
 }
 
 }  // namespace
@@ -200,9 +279,12 @@ namespace brume {
 HWY_EXPORT(WritePointsOfSegments);
 HWY_EXPORT(WritePointsOfRow);
 HWY_EXPORT(Sum);
+HWY_EXPORT(WriteEdges);
+HWY_EXPORT(SetScaled);
 HWY_EXPORT(AddScaled);
 HWY_EXPORT(Attenuate);
 HWY_EXPORT(RunningSum);
+HWY_EXPORT(RunningSumOfChannels);
 
 void write_points(const Ray& ray, const float* t, float offset, int n, float* x, float* y, float* z) {
   HWY_DYNAMIC_DISPATCH(WritePointsOfSegments)(ray, t, offset, n, x, y, z);
@@ -211,13 +293,20 @@ void write_points(const Ray& ray, const PointRow& row, float* x, float* y, float
   HWY_DYNAMIC_DISPATCH(WritePointsOfRow)(ray, row, x, y, z);
 }
 float sum(const float* values, int n) { return HWY_DYNAMIC_DISPATCH(Sum)(values, n); }
-void add_scaled(const float* values, float factor, int n, float* sum) {
-  HWY_DYNAMIC_DISPATCH(AddScaled)(values, factor, n, sum);
+void write_edges(float begin, float step, int n, float* t) { HWY_DYNAMIC_DISPATCH(WriteEdges)(begin, step, n, t); }
+void set_scaled(const float* values, float factor, int n, float* out) {
+  HWY_DYNAMIC_DISPATCH(SetScaled)(values, factor, n, out);
+}
+void add_scaled(const float* values, float factor, int n, float* out) {
+  HWY_DYNAMIC_DISPATCH(AddScaled)(values, factor, n, out);
 }
 void attenuate(const float* t, const float* sigma_t, int n, const Attenuation& out) {
   HWY_DYNAMIC_DISPATCH(Attenuate)(t, sigma_t, n, out);
 }
 void running_sum(const float* p, int n, float* cdf) { HWY_DYNAMIC_DISPATCH(RunningSum)(p, n, cdf); }
+void running_sum(std::span<const ScatteringChannel> channels, int n, float* p, float* cdf) {
+  HWY_DYNAMIC_DISPATCH(RunningSumOfChannels)(channels, n, p, cdf);
+}
 
 }  // namespace brume
 #endif  // HWY_ONCE

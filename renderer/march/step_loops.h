@@ -1,6 +1,8 @@
 // The loops over a ray's steps, at SIMD width.
 #pragma once
 
+#include <span>
+
 #include "renderer/core/ray.h"
 
 namespace brume {
@@ -24,8 +26,12 @@ void write_points(const Ray& ray, const PointRow& row, float* x, float* y, float
 /// Any alignment; nothing behind `n` is read.
 float sum(const float* values, int n);
 
-/// sum[i] += factor * values[i]; nothing behind `n` is written.  @param values, sum  any alignment
-void add_scaled(const float* values, float factor, int n, float* sum);
+/// t[i] = begin + i * step for i in [0, n).  @param t  any alignment; what it holds behind is overwritten
+void write_edges(float begin, float step, int n, float* t);
+
+/// out[i] = factor * values[i], or added to what is there; nothing behind `n` is written.  @param out  any alignment
+void set_scaled(const float* values, float factor, int n, float* out);
+void add_scaled(const float* values, float factor, int n, float* out);
 
 struct Attenuation {
   float* tau;            ///< [n + 1] sum_{j < i} sigma_t[j] (t[j + 1] - t[j])
@@ -39,5 +45,13 @@ void attenuate(const float* t, const float* sigma_t, int n, const Attenuation& o
 /// cdf[i] = sum_{j < i} p[j] for i in [0, n]. Never descends, and is exactly flat where p is 0.
 /// @param p  >= 0.  @param cdf  writable up to 16 values behind the last
 void running_sum(const float* p, int n, float* cdf);
+
+/// The same for p[i] = sum over the channels of weight * sigma_s[i] * length[i], which is written too.
+struct ScatteringChannel {
+  float weight;
+  const float* sigma_s;
+  const float* length;
+};
+void running_sum(std::span<const ScatteringChannel> channels, int n, float* p, float* cdf);
 
 }  // namespace brume

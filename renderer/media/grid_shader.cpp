@@ -26,6 +26,7 @@ ShaderTraits GridShader::traits() const {
   ShaderTraits traits;
   traits.own_emission = glow_.amount.grid || glow_.temperature.grid;
   traits.finest_scale = voxel_size_;
+  traits.lookup_nanoseconds = 1.3f;
   return traits;
 }
 

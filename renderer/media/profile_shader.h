@@ -22,7 +22,7 @@ class ProfileShader final : public Shader {
       : local_from_scene_(local_from_scene), finest_scale_(finest_scale), profile_(std::move(profile)) {}
 
   ShaderTraits traits() const override {
-    return {.constant = false, .own_emission = false, .finest_scale = finest_scale_};
+    return {.constant = false, .own_emission = false, .finest_scale = finest_scale_, .lookup_nanoseconds = 5};
   }
   void density(const PointBatch& points, float* density) const override;
   float max_density(const Bounds3& box) const override;

@@ -16,6 +16,16 @@ float HenyeyGreenstein::value(float cos_theta) const {
   return kInv4Pi * static_cast<float>((1 - a) * (1 + a) / (denominator * std::sqrt(denominator)));
 }
 
+void HenyeyGreenstein::values(const float* cos_theta, int n, float* out) const {
+  const double a = std::abs(g_);
+  const auto least = static_cast<float>((1 - a) * (1 - a)), slope = static_cast<float>(2 * a),
+             scale = kInv4Pi * static_cast<float>((1 - a) * (1 + a)), sign = g_ < 0 ? -1.0f : 1.0f;
+  for (int i = 0; i < n; ++i) {
+    const float denominator = least + slope * std::max(0.0f, 1 - sign * cos_theta[i]);
+    out[i] = scale / (denominator * std::sqrt(denominator));
+  }
+}
+
 PhaseSample HenyeyGreenstein::sample(Vec3 direction, Vec2 u) const {
   // The textbook inverse, cos = (1 + g^2 - ((1 - g^2) / d)^2) / (2 g) with s = 1 - 2u and d = 1 + g s, divides by g and
   // cancels near |g| = 1. On paper (1 + g) - d = g (1 - s), so one g cancels and every factor is positive:

@@ -11,6 +11,7 @@ class HenyeyGreenstein final : public PhaseFunction {
   /// @param g  clamped to the range
   explicit HenyeyGreenstein(double g);
   float value(float cos_theta) const override;
+  void values(const float* cos_theta, int n, float* out) const override;
   PhaseSample sample(Vec3 direction, Vec2 u) const override;
   float mean_cosine() const override { return static_cast<float>(g_); }
 

@@ -21,6 +21,11 @@ class PhaseFunction {
   /// @param cos_theta in [-1, 1]; rounding beyond is clamped.   @return 1/sr, finite
   virtual float value(float cos_theta) const = 0;
 
+  /// value() of n cosines, to some float roundings.
+  virtual void values(const float* cos_theta, int n, float* out) const {
+    for (int i = 0; i < n; ++i) out[i] = value(cos_theta[i]);
+  }
+
   /// Draws the direction of travel after scattering, with pdf value(). @param direction of travel before, unit.
   virtual PhaseSample sample(Vec3 direction, Vec2 u) const = 0;
 

@@ -40,8 +40,9 @@ enum class Decision : std::uint32_t {
   EquiangularFlight,  // up to a distance that was drawn about a light
   RealCollision,      // whether a tentative collision is real; per flight
   MediumOrSurface,    // where a scattered ray begins
+  ShadowRoulette,     // whether a faint light sample's shadow ray is traced; per light sample
 };
-inline constexpr int kDecisionCount = static_cast<int>(Decision::MediumOrSurface) + 1;
+inline constexpr int kDecisionCount = static_cast<int>(Decision::ShadowRoulette) + 1;
 
 /// Random numbers of one sample of one pixel. A pure function of its arguments: no state advances, so results do not
 /// depend on the order of calls, on threads or on tiles.

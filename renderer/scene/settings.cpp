@@ -19,11 +19,12 @@ std::vector<Param> march_params() {
 
 std::vector<Param> sampling_params() {
   return {param::choice(
-              "distance_sampling", "Distance sampling", "mis",
+              "distance_sampling", "Distance sampling", "product",
               {{"density", "Density", "in proportion to what the medium scatters: best for dense media and far lights"},
                {"equi_angular", "Equi-angular",
                 "in proportion to 1/r^2 from the light: best for thin media and near lights"},
-               {"mis", "MIS", "both, combined by multiple importance sampling"}})
+               {"mis", "MIS", "both, combined by multiple importance sampling"},
+               {"product", "Product", "in proportion to both at once and to the phase function: the least noise"}})
               .says("How the distance of a light sample along the ray is drawn."),
           param::choice(
               "mis_heuristic", "MIS heuristic", "power",
@@ -35,7 +36,9 @@ std::vector<Param> light_params() {
   return {param::integer("light_samples", "Light samples", 1)
               .between(1, 256)
               .slider(1, 16)
-              .says("Shadow rays per ray and light; in MIS half go to each technique, and with 1 the technique "
+              .auto_by_default("as many as balance the cost of the camera ray's march, and one after bounces; one where "
+                               "every step or collision is lit")
+              .says("Shadow rays per ray and light; in MIS half go to each technique, and of an odd number one "
                     "alternates between passes."),
           param::choice("light_selection", "Light selection", "all",
                         {{"all", "All", "every light gets its light samples"},
@@ -95,6 +98,7 @@ RenderSettings read_render_settings(const Node& node) {
     const std::string& key = n.text("distance_sampling");
     return key == "mis"       ? DistanceSampling::Mis
            : key == "density" ? DistanceSampling::Density
+           : key == "product" ? DistanceSampling::Product
                               : DistanceSampling::Equiangular;
   });
   s.mis_heuristic = value_or(node, "mis_heuristic", MisHeuristic::Power, [](const Node& n) {
@@ -108,7 +112,9 @@ RenderSettings read_render_settings(const Node& node) {
   s.step_size = value_or(node, "step_size", std::optional<float>(), length_or_auto("step_size"));
   s.shadow_step_size = value_or(node, "shadow_step_size", std::optional<float>(), length_or_auto("shadow_step_size"));
   s.bounces = value_or(node, "bounces", 0, [](const Node& n) { return n.integer("bounces"); });
-  s.light_samples = value_or(node, "light_samples", 1, [](const Node& n) { return n.integer("light_samples"); });
+  s.light_samples = value_or(node, "light_samples", std::optional<int>(), [](const Node& n) {
+    return n.is_auto("light_samples") ? std::optional<int>() : std::optional<int>(n.integer("light_samples"));
+  });
   s.light_selection = value_or(node, "light_selection", LightSelection::All, [](const Node& n) {
     return n.text("light_selection") == "all" ? LightSelection::All : LightSelection::One;
   });

@@ -10,7 +10,7 @@
 namespace brume {
 
 /// Which densities the distances of light samples are drawn from.
-enum class DistanceSampling { Density, Equiangular, Mis };
+enum class DistanceSampling { Density, Equiangular, Mis, Product };
 
 enum class MisHeuristic { Balance, Power };
 
@@ -26,7 +26,7 @@ struct RenderSettings {
   std::optional<float> step_size;         ///< world units; none: the finest scale of the media
   std::optional<float> shadow_step_size;  ///< world units; none: the step size
   int bounces;
-  int light_samples;
+  std::optional<int> light_samples;  ///< none: what the scene has for the integrator
   LightSelection light_selection;
   bool russian_roulette;
   int shadow_map_resolution;

@@ -12,7 +12,13 @@
 namespace brume {
 
 const char* name_of(DistanceSampling mode) {
-  return mode == DistanceSampling::Density ? "density" : mode == DistanceSampling::Equiangular ? "equi_angular" : "mis";
+  switch (mode) {
+    case DistanceSampling::Density: return "density";
+    case DistanceSampling::Equiangular: return "equi_angular";
+    case DistanceSampling::Mis: return "mis";
+    case DistanceSampling::Product: return "product";
+  }
+  return "";
 }
 
 namespace {
@@ -90,6 +96,7 @@ Result<Node> describe(const ReferenceCase& c, const ReferenceQuantity& quantity,
       quantity.measured == Measured::OpticalDepth ? Result<void>() : add_light_of(c, quantity.background, scene),
       has_modes ? render.set("distance_sampling", std::string(name_of(settings.distance_sampling))) : Result<void>(),
       render.set("bounces", std::int64_t{quantity.bounces}),
+      render.set("light_samples", std::int64_t{1}),
       render.set("sampler", std::string(settings.sampler == SamplerKind::Sobol ? "sobol" : "independent")),
       render.set("seed", static_cast<std::int64_t>(settings.seed)),
       settings.step_size > 0 && marches ? render.set("step_size", settings.step_size) : Result<void>(),

@@ -9,7 +9,7 @@ namespace brume {
 namespace {
 
 constexpr double kInv4PiD = 0.07957747154594766788;
-const char* const kModes[] = {"density", "equi_angular", "mis"};
+const char* const kModes[] = {"density", "equi_angular", "mis", "product"};
 /// Bound on |z| of one comparison in a test that makes `comparisons` of them.
 double bound(int comparisons) { return sidak_z(1e-3, comparisons); }
 

@@ -1,0 +1,174 @@
+#include "renderer/experiments/limit_kernels.h"
+
+#include <chrono>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "renderer/experiments/limit_kernels.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per instruction set
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace brume::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<float, 16>;
+using DI = hn::RebindToSigned<D>;
+using DU = hn::RebindToUnsigned<D>;
+using V = hn::Vec<D>;
+
+template <class T> HWY_INLINE void pass_through_memory(T*& p) { asm volatile("" : "+r"(p) : : "memory"); }
+
+HWY_INLINE V lerp(V f, V a, V b) { return hn::MulAdd(f, hn::Sub(b, a), a); }
+HWY_INLINE V low_half(hn::Vec<DU> v) {
+  return hn::BitCast(D(), hn::ShiftLeft<13>(hn::And(v, hn::Set(DU(), 0xFFFF))));
+}
+HWY_INLINE V high_half(hn::Vec<DU> v) { return hn::BitCast(D(), hn::ShiftLeft<13>(hn::ShiftRight<16>(v))); }
+
+constexpr int kBlock = 64;
+
+struct Scratch {
+  std::int32_t slot[kBlock], corner[kBlock];
+  float fx[kBlock], fy[kBlock], fz[kBlock];
+  std::uint32_t voxels[4 * kBlock];
+};
+
+void Lookup(const BrickGrid& grid, Vec3 first, Vec3 step, int n, float* out) {
+  const D d;
+  const DI di;
+  const DU du;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const std::int32_t* const table = grid.table();
+  const std::byte* const data = grid.values().data();
+  first = first - Vec3(grid.table_origin());
+  const V scale = hn::Set(d, grid.values().unit() * 0x1p112f);
+  const auto ny = hn::Set(di, grid.table_extent().y), nz = hn::Set(di, grid.table_extent().z);
+  const auto seven = hn::Set(di, 7), one = hn::Set(di, 1), nine = hn::Set(di, 9);
+  alignas(64) Scratch scratch;
+  for (int begin = 0; begin < n; begin += kBlock) {
+    Scratch* s = &scratch;
+    for (int i = 0; i < kBlock; i += lanes) {
+      const V k = hn::Iota(d, static_cast<float>(begin + i));
+      const V x = hn::MulAdd(k, hn::Set(d, step.x), hn::Set(d, first.x)),
+              y = hn::MulAdd(k, hn::Set(d, step.y), hn::Set(d, first.y)),
+              z = hn::MulAdd(k, hn::Set(d, step.z), hn::Set(d, first.z));
+      const auto ix = hn::ConvertTo(di, x), iy = hn::ConvertTo(di, y), iz = hn::ConvertTo(di, z);
+      hn::Store(hn::Sub(x, hn::ConvertTo(d, ix)), d, s->fx + i);
+      hn::Store(hn::Sub(y, hn::ConvertTo(d, iy)), d, s->fy + i);
+      hn::Store(hn::Sub(z, hn::ConvertTo(d, iz)), d, s->fz + i);
+      const auto row = hn::Add(hn::Mul(hn::ShiftRight<3>(ix), ny), hn::ShiftRight<3>(iy));
+      hn::Store(hn::Add(hn::Mul(row, nz), hn::Add(hn::ShiftRight<3>(iz), one)), di, s->slot + i);
+      const auto xy = hn::Add(hn::ShiftLeft<3>(hn::And(ix, seven)), hn::And(iy, seven));
+      hn::Store(hn::Add(hn::Mul(xy, nine), hn::And(iz, seven)), di, s->corner + i);
+    }
+    pass_through_memory(s);
+    for (int k = 0; k < kBlock; ++k)
+      std::memcpy(s->voxels + 4 * k,
+                  data + static_cast<std::size_t>(table[s->slot[k]]) * bytes_per_brick(BrickLayout::Quad) +
+                      static_cast<std::size_t>(s->corner[k]) * 8,
+                  16);
+    pass_through_memory(s);
+    for (int i = 0; i < kBlock; i += lanes) {
+      hn::Vec<DU> low0, low1, high0, high1;
+      hn::LoadInterleaved4(du, s->voxels + 4 * i, low0, low1, high0, high1);
+      const V fx = hn::Load(d, s->fx + i), fy = hn::Load(d, s->fy + i), fz = hn::Load(d, s->fz + i);
+      const V a = lerp(fz, low_half(low0), low_half(high0)), b = lerp(fz, high_half(low0), high_half(high0));
+      const V c = lerp(fz, low_half(low1), low_half(high1)), e = lerp(fz, high_half(low1), high_half(high1));
+      hn::StoreU(hn::Mul(scale, lerp(fx, lerp(fy, a, b), lerp(fy, c, e))), d, out + begin + i);
+    }
+  }
+}
+
+/// exp(-x) for x in [0, 80], relative error below 4e-6: 2^k times a polynomial.
+HWY_INLINE V exp_minus(V x) {
+  const D d;
+  const V y = hn::Mul(x, hn::Set(d, -1.44269504f)), k = hn::Round(y), f = hn::Sub(y, k);
+  V p = hn::Set(d, 0.00133336f);
+  p = hn::MulAdd(p, f, hn::Set(d, 0.00961813f));
+  p = hn::MulAdd(p, f, hn::Set(d, 0.05550411f));
+  p = hn::MulAdd(p, f, hn::Set(d, 0.24022651f));
+  p = hn::MulAdd(p, f, hn::Set(d, 0.69314718f));
+  p = hn::MulAdd(p, f, hn::Set(d, 1.0f));
+  const auto exponent = hn::ShiftLeft<23>(hn::Add(hn::ConvertTo(DI(), k), hn::Set(DI(), 127)));
+  return hn::Mul(p, hn::BitCast(d, exponent));
+}
+
+template <int kBy> HWY_INLINE V add_from_below(V v) {
+  const DI di;
+  const auto from = hn::Sub(hn::Iota(di, 0), hn::Set(di, kBy));
+  const auto index = hn::IndicesFromVec(D(), hn::Max(from, hn::Zero(di)));
+  const auto low = hn::RebindMask(D(), hn::Lt(from, hn::Zero(di)));
+  return hn::Add(v, hn::IfThenZeroElse(low, hn::TableLookupLanes(v, index)));
+}
+
+HWY_INLINE V running_sums(V v) {
+  const int lanes = static_cast<int>(hn::Lanes(D()));
+  if (lanes > 1) v = add_from_below<1>(v);
+  if (lanes > 2) v = add_from_below<2>(v);
+  if (lanes > 4) v = add_from_below<4>(v);
+  if (lanes > 8) v = add_from_below<8>(v);
+  return v;
+}
+
+void Distribute(const float* density, int n, float sigma_t, float sigma_s, float delta, float* transmittance,
+                float* cdf) {
+  const D d;
+  const auto last = hn::IndicesFromVec(d, hn::Set(DI(), static_cast<int>(hn::Lanes(d)) - 1));
+  const V tau_of = hn::Set(d, sigma_t * delta), scattered = hn::Set(d, sigma_s * delta);
+  V depth = hn::Zero(d), sum = hn::Zero(d);
+  for (int i = 0; i < n; i += static_cast<int>(hn::Lanes(d))) {
+    const V rho = hn::LoadU(d, density + i), x = hn::Mul(rho, tau_of);
+    const V tau = hn::Add(depth, running_sums(x));
+    depth = hn::TableLookupLanes(tau, last);
+    const V t = exp_minus(hn::Sub(tau, x));
+    hn::StoreU(t, d, transmittance + i);
+    const V c = hn::Add(sum, running_sums(hn::Mul(hn::Mul(rho, scattered), t)));
+    sum = hn::TableLookupLanes(c, last);
+    hn::StoreU(c, d, cdf + i);
+  }
+}
+
+}  // namespace
+}  // namespace brume::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace brume {
+
+HWY_EXPORT(Lookup);
+HWY_EXPORT(Distribute);
+
+LimitCycles limit_cycles(const std::string& level) {
+  if (level.starts_with("avx3")) return {.lookup = 3.5, .distribute = 1.8, .noise_octave = 5.6};
+  if (level == "avx2") return {.lookup = 5.5, .distribute = 2.8, .noise_octave = 12.4};
+  return {};
+}
+
+void limit_lookup(const BrickGrid& grid, Vec3 first, Vec3 step, int n, float* out) {
+  HWY_DYNAMIC_DISPATCH(Lookup)(grid, first, step, n, out);
+}
+
+void limit_distribute(const float* density, int n, float sigma_t, float sigma_s, float delta, float* transmittance,
+                      float* cdf) {
+  HWY_DYNAMIC_DISPATCH(Distribute)(density, n, sigma_t, sigma_s, delta, transmittance, cdf);
+}
+
+double cycles_per_nanosecond() {
+  constexpr int kRounds = 100000, kCyclesPerRound = 6;
+  std::uint64_t x = 1;
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < kRounds; ++i) {
+    x ^= x << 13;
+    x ^= x >> 7;
+    x ^= x << 17;
+    asm volatile("" : "+r"(x));
+  }
+  const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
+  return kRounds * kCyclesPerRound / time.count();
+}
+
+}  // namespace brume
+#endif  // HWY_ONCE

@@ -1,0 +1,80 @@
+#include "renderer/march/product_sampling.h"
+
+#include "renderer/march/product_weights.h"
+#include "renderer/march/step_loops.h"
+
+namespace brume {
+namespace {
+
+/// Where the light is farther from a segment than so many of its lengths, 1/r^2 is taken as constant in it.
+constexpr float kNear = 6;
+
+}  // namespace
+
+template <int C> bool ProductSampling<C>::near(int i) const {
+  const float begin = record_.t[i], delta = record_.t[i + 1] - begin;
+  const float s = begin + 0.5f * delta - foot_, reach = kNear * delta;
+  return distance_ < reach && std::abs(s) < reach;
+}
+
+template <int C>
+ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const Ray& ray, const LightPivot& pivot, Interval lit,
+                                    const PhaseFunction* phase, Arena& arena)
+    : record_(record), density_(record), lit_(lit) {
+  const Vec3d to_pivot = Vec3d(pivot.position) - Vec3d(ray.origin), direction(ray.direction);
+  foot_ = static_cast<float>(dot(to_pivot, direction));
+  const auto off_ray = static_cast<float>(length(to_pivot - direction * static_cast<double>(foot_)));
+  // As for equi-angular sampling, a pivot on the ray is taken as if it were next to it.
+  const float reach = std::max(std::abs(record.t[0] - foot_), std::abs(record.t[record.n] - foot_));
+  distance_ = std::max(std::hypot(off_ray, pivot.radius), 1e-7f * reach);
+
+  const auto n = static_cast<std::size_t>(record.n);
+  float* cdf = arena.alloc_span<float>(n + 16).data();
+  cdf_ = cdf;
+  const ArenaScope scope(arena);
+  float* weight = arena.alloc_span<float>(n).data();
+  float* cosine = arena.alloc_span<float>(n).data();
+  float* turned = arena.alloc_span<float>(n).data();
+  const ProductTerms terms{.foot = foot_,
+                           .off_ray = off_ray,
+                           .distance = distance_,
+                           .height = dot(ray.origin - pivot.position, pivot.normal),
+                           .slope = dot(ray.direction, pivot.normal),
+                           .two_sided = pivot.two_sided,
+                           .flat = pivot.normal != Vec3()};
+  if (phase) {
+    light_cosines(record.t, record.n, terms, cosine);
+    phase->values(cosine, record.n, turned);
+  }
+  product_weights(record.t, record.p, phase ? turned : nullptr, record.n, terms, weight);
+  // Few segments are near the light: what holds for the others is mended there.
+  for (int i = find_segment(record, foot_ - kNear * record.longest); i < record.n; ++i) {
+    if (record.t[i] > foot_ + kNear * record.longest || distance_ > kNear * record.longest) break;
+    if (!near(i)) continue;
+    const double a = record.t[i] - foot_, delta = record.t[i + 1] - record.t[i], b = a + delta, d = distance_;
+    const double middle = a + 0.5 * delta;
+    const double exact = std::atan2(d * delta, d * d + a * b) / (d * delta);
+    weight[i] *= static_cast<float>(exact * (d * d + middle * middle));
+  }
+  for (int i = 0; i < record.n && record.t[i + 1] <= lit.begin; ++i) weight[i] = 0;
+  for (int i = record.n - 1; i >= 0 && record.t[i] >= lit.end; --i) weight[i] = 0;
+  running_sum(weight, record.n, cdf);
+}
+
+template <int C> typename ProductSampling<C>::Sample ProductSampling<C>::sample(float u) const {
+  const DrawnSegment drawn = draw_segment(cdf_, record_.n, u);
+  const auto i = static_cast<std::size_t>(drawn.segment);
+  const float share = (cdf_[i + 1] - cdf_[i]) / total();
+  if (near(drawn.segment)) {
+    const Interval part = intersect({record_.t[i], record_.t[i + 1]}, lit_);
+    const DistanceSample s = EquiangularSampling({foot_, distance_}, part).sample(drawn.rest);
+    return {evaluate(record_, s.t, drawn.segment), share * s.pdf_t};
+  }
+  const RayPoint<C> at = density_.sample_in(drawn.segment, drawn.rest);
+  return {at, share * density_.pdf(at) * record_.scattered() / record_.p[i]};
+}
+
+template class ProductSampling<1>;
+template class ProductSampling<3>;
+
+}  // namespace brume

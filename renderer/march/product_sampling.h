@@ -1,0 +1,47 @@
+// Distances drawn in proportion to what a light does along the ray, but for its shadows.
+#pragma once
+
+#include "renderer/core/ray.h"
+#include "renderer/lights/light.h"
+#include "renderer/march/density_sampling.h"
+#include "renderer/march/equiangular.h"
+#include "renderer/phase/phase_function.h"
+
+namespace brume {
+
+/// Product sampling: segment i is drawn with the weight
+///   w_i = P_i / delta_i * (integral over the segment of 1/r^2) * phase * cosine at the light,
+/// which is scattering times transmittance times what arrives unshadowed; the last two are taken in the middle of the
+/// segment. Inside the segment the distance is equi-angular where 1/r^2 varies most, next to the light, and as in
+/// density sampling elsewhere. What is left to vary is the shadow. Brume's own addition to the techniques of Kulla &
+/// Fajardo 2012, who draw in proportion to one factor or the other.
+template <int C> class ProductSampling {
+ public:
+  /// Everything lives in the arena scope that is open.
+  /// @param record  distributed, with scattered() > 0
+  /// @param lit  the part of the ray that the light can reach.  @param phase  null: taken as the same all around
+  ProductSampling(const MarchRecord<C>& record, const Ray& ray, const LightPivot& pivot, Interval lit,
+                  const PhaseFunction* phase, Arena& arena);
+
+  /// Sum of the weights: the light that the ray scatters to its origin, unshadowed, for a light of unit intensity.
+  float total() const { return cdf_[record_.n]; }
+
+  struct Sample {
+    RayPoint<C> at;
+    float pdf_t;  ///< per world unit
+  };
+  /// Needs total() > 0.  @param u  in [0,1)
+  Sample sample(float u) const;
+
+ private:
+  bool near(int segment) const;
+
+  const MarchRecord<C>& record_;
+  DensitySampling<C> density_;
+  Interval lit_;
+  float foot_;             // t of the pivot's foot on the ray
+  float distance_;         // of the pivot from the ray; at least its radius
+  const float* cdf_;       // [n + 1]
+};
+
+}  // namespace brume
