@@ -1,13 +1,13 @@
-# Puts a table between the README's marks. Usage: cmake -D README=... -D TABLE=... -P tests/insert_table.cmake
+# Puts a table between the README's marks. Usage: cmake -D README=... -D TABLE=... -D NAME="reference table" -P tests/insert_table.cmake
 
 file(READ ${README} text)
 file(READ ${TABLE} table)
-set(begin "<!-- reference table -->")
-set(end "<!-- end of reference table -->")
+set(begin "<!-- ${NAME} -->")
+set(end "<!-- end of ${NAME} -->")
 string(FIND "${text}" "${begin}" from)
 string(FIND "${text}" "${end}" to)
 if(from EQUAL -1 OR to EQUAL -1)
-  message(FATAL_ERROR "${README} has no marks for the reference table")
+  message(FATAL_ERROR "${README} has no marks for the ${NAME}")
 endif()
 string(LENGTH "${begin}" length)
 math(EXPR from "${from} + ${length}")

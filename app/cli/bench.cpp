@@ -7,6 +7,7 @@
 #include "app/cli/progress_line.h"
 #include "app/cli/text_table.h"
 #include "app/ui/ui_fonts.h"
+#include "renderer/core/atomic_file.h"
 #include "renderer/experiments/bench.h"
 
 namespace brume {
@@ -45,6 +46,15 @@ std::string markdown_of(const std::vector<BenchResult>& results) {
   return text;
 }
 
+std::string csv_of(const std::vector<BenchResult>& results) {
+  std::string text = "name,value,unit,limit,ratio,goal\n";
+  const auto or_blank = [](std::optional<double> v) { return v ? short_number(*v, 6) : std::string(); };
+  for (const BenchResult& r : results)
+    text += "\"" + r.name + "\"," + short_number(r.value, 6) + "," + r.unit + "," + or_blank(r.limit) + "," +
+            or_blank(r.ratio()) + "," + or_blank(r.goal) + "\n";
+  return text;
+}
+
 }  // namespace
 
 Result<ExitCode> run_bench_command(const BenchCommandOptions& options) {
@@ -58,6 +68,8 @@ Result<ExitCode> run_bench_command(const BenchCommandOptions& options) {
   const std::string text = options.json       ? json_of(*results)
                            : options.markdown ? markdown_of(*results)
                                               : format_table(cells_of(*results), "lrlrrr", 0);
+  if (!options.csv_file.empty())
+    if (auto done = write_text_atomically(options.csv_file, csv_of(*results)); !done) return done.error();
   if (auto done = print_result(text); !done) return done.error();
   return ExitCode::Ok;
 }

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <sstream>
 
-#include "app/cli/console.h"
 #include "app/cli/bench.h"
+#include "app/cli/console.h"
 #include "app/cli/docs.h"
 #include "app/cli/info.h"
 #include "app/cli/probe.h"
@@ -249,13 +249,15 @@ Command make_info(CLI::App& root) {
 
 Command make_bench(CLI::App& root) {
   auto o = std::make_shared<BenchCommandOptions>();
-  CLI::App* app = add_command(root, "bench", "Measures how fast this machine renders", "[OPTIONS]",
-                              "Of the inner loops it also tells how fast they could be here (limit), from kernels that\n"
-                              "do the least possible work in the same process.\n\n"
-                              "Examples:\n  brume bench\n  brume bench --json --only smoke");
+  CLI::App* app =
+      add_command(root, "bench", "Measures how fast this machine renders", "[OPTIONS]",
+                  "Of the inner loops it also tells how fast they could be here (limit), from kernels that\n"
+                  "do the least possible work in the same process.\n\n"
+                  "Examples:\n  brume bench\n  brume bench --json --only smoke");
   app->add_option("--only", o->only, "Only what has this in its name")->option_text("TEXT");
   CLI::Option* json = app->add_flag("--json", o->json, "As a JSON list of {name, value, unit, limit, ratio, goal}");
   app->add_flag("--markdown", o->markdown, "As a Markdown table")->excludes(json);
+  app->add_option("--csv", o->csv_file, "Also writes them to this file")->option_text("FILE.csv");
   return {app, [o] { return run_bench_command(*o); }};
 }
 

@@ -152,13 +152,7 @@ Result<ExitCode> run_render(const RenderOptions& options) {
   if (auto done = write_picture(options.output, picture, loaded->description); !done) return done.error();
   if (const auto why = explain_black(*scene, picture)) print_warning("the picture is black. " + *why);
   if (!options.statistics_file.empty()) {
-    const RenderReport report{options.scene.file,
-                              options.output,
-                              *scene,
-                              statistics,
-                              noise,
-                              load_seconds,
-                              interrupted};
+    const RenderReport report{options.scene.file, options.output, *scene, statistics, noise, load_seconds, interrupted};
     if (auto done = write_text_atomically(options.statistics_file, format_report(report)); !done) return done.error();
   }
   print_summary(options, *scene, statistics, noise, interrupted);

@@ -49,6 +49,7 @@ std::string format_report(const RenderReport& report) {
   json["needs"] = report.scene.needs.to_string();
   json["step_size"] = report.scene.step_size;
   json["shadow_step_size"] = report.scene.shadow_step_size;
+  json["light_samples"] = report.scene.light_samples;
   json["warnings"] = report.scene.warnings;
   // Names of files need not be UTF-8, and JSON must be.
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -11,8 +11,8 @@ struct RenderReport {
   std::string scene_file, output;
   const Scene& scene;
   const RenderStatistics& statistics;
-  double noise = 0;         ///< as Film::noise_estimate()
-  double load_seconds = 0;  ///< before the first sample: reading files, building grids
+  double noise = 0;          ///< as Film::noise_estimate()
+  double load_seconds = 0;   ///< before the first sample: reading files, building grids
   bool interrupted = false;  ///< fewer samples than asked for
 };
 

@@ -54,7 +54,8 @@ std::string bounds_text(const Bounds3& b) {
 }
 
 std::string steps_text(const Scene& scene) {
-  if (!scene.needs.lookups) return "none: rays cross homogeneous media in one segment";
+  const bool split = scene.render.distance_sampling == DistanceSampling::Product && scene.needs.equiangular;
+  if (!scene.needs.lookups && !split) return "none: rays cross homogeneous media in one segment";
   return short_number(scene.step_size) + (scene.render.step_size ? "" : " (auto)") + ", towards lights " +
          short_number(scene.shadow_step_size) + (scene.render.shadow_step_size ? "" : " (auto)") + " world units";
 }

@@ -15,6 +15,7 @@ std::optional<double> automatic_value(const Session& session, const Param& p) {
   if (!scene) return std::nullopt;
   if (p.key == "step_size") return scene->step_size;
   if (p.key == "shadow_step_size") return scene->shadow_step_size;
+  if (p.key == "light_samples") return scene->light_samples;
   return std::nullopt;
 }
 

@@ -177,6 +177,8 @@ bool auto_switch(const Param& p, bool is_auto, std::optional<Value>& edited, con
     edited = is_auto ? Value(Auto{}) : p.manual_value;
     if (!is_auto && context.automatic_value && p.type == ParamType::Number)
       edited = clamped(p, *context.automatic_value);
+    if (!is_auto && context.automatic_value && p.type == ParamType::Int)
+      edited = Value(static_cast<std::int64_t>(*context.automatic_value));
   }
   ui::tooltip_on_hover("Auto: " + *p.automatic + ".");
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);

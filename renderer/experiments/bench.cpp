@@ -210,8 +210,8 @@ class Bench {
     auto scene = commit(description, cache_, {});
     if (!scene) return scene.error();
     const double step = 0.5 * static_cast<double>((*scene)->step_size);
-    for (const auto& [key, value] : {std::pair<std::string, std::string>("render.step_size", format_value(step)),
-                                     {"camera.vfov_deg", "5"}})
+    for (const auto& [key, value] :
+         {std::pair<std::string, std::string>("render.step_size", format_value(step)), {"camera.vfov_deg", "5"}})
       if (auto set = set_by_path(description, key, value); !set) return set.error();
     scene = commit(description, cache_, {});
     if (!scene) return scene.error();

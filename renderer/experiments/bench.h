@@ -20,8 +20,8 @@ struct BenchResult {
 };
 
 struct BenchOptions {
-  std::string scenes;      ///< folder of the scenes that ship
-  std::string only = {};   ///< part of the names of what is measured; empty: everything
+  std::string scenes;     ///< folder of the scenes that ship
+  std::string only = {};  ///< part of the names of what is measured; empty: everything
   /// Called before each measurement with its name.
   std::function<void(const std::string&)> progress = {};
 };

@@ -23,9 +23,7 @@ using V = hn::Vec<D>;
 template <class T> HWY_INLINE void pass_through_memory(T*& p) { asm volatile("" : "+r"(p) : : "memory"); }
 
 HWY_INLINE V lerp(V f, V a, V b) { return hn::MulAdd(f, hn::Sub(b, a), a); }
-HWY_INLINE V low_half(hn::Vec<DU> v) {
-  return hn::BitCast(D(), hn::ShiftLeft<13>(hn::And(v, hn::Set(DU(), 0xFFFF))));
-}
+HWY_INLINE V low_half(hn::Vec<DU> v) { return hn::BitCast(D(), hn::ShiftLeft<13>(hn::And(v, hn::Set(DU(), 0xFFFF)))); }
 HWY_INLINE V high_half(hn::Vec<DU> v) { return hn::BitCast(D(), hn::ShiftLeft<13>(hn::ShiftRight<16>(v))); }
 
 constexpr int kBlock = 64;

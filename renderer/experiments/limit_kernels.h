@@ -15,8 +15,8 @@ struct LimitCycles {
 };
 LimitCycles limit_cycles(const std::string& simd_level);
 
-/// Trilinear samples at first + k * step, k in [0, n), in index space, all of them inside the table and not on its upper
-/// faces. Writes up to 64 values.
+/// Trilinear samples at first + k * step, k in [0, n), in index space, all of them inside the table and not on its
+/// upper faces. Writes up to 64 values.
 /// @param grid  in Quad layout
 void limit_lookup(const BrickGrid& grid, Vec3 first, Vec3 step, int n, float* out);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "renderer/core/arena.h"
@@ -21,6 +22,9 @@ class Shape {
   virtual std::span<const Interval> intervals(const Ray& ray, Arena& arena) const = 0;
 
   virtual Bounds3 bounds() const = 0;
+
+  /// The shape itself where it is an axis-aligned box, which many rays can be clipped to at once.
+  virtual std::optional<Bounds3> box() const { return std::nullopt; }
 };
 
 class BoxShape final : public Shape {
@@ -28,6 +32,7 @@ class BoxShape final : public Shape {
   BoxShape(Vec3d low, Vec3d high) : low_(low), high_(high) {}
   std::span<const Interval> intervals(const Ray& ray, Arena& arena) const override;
   Bounds3 bounds() const override { return {low_, high_}; }
+  std::optional<Bounds3> box() const override { return bounds(); }
 
  private:
   Vec3d low_, high_;

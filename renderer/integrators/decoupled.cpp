@@ -23,8 +23,9 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
     const std::optional<SurfaceHit> surface = close(ray, scene);
 
     // record
-    const MarchSettings settings{scene.step_size, sampler.u1(Decision::MarchOffset, bounce), scene.render.time,
-                                 scene.render.distance_sampling == DistanceSampling::Product};
+    const MarchSettings settings{
+        scene.step_size, sampler.u1(Decision::MarchOffset, bounce), scene.render.time,
+        scene.render.distance_sampling == DistanceSampling::Product && scene.needs.equiangular};
     MarchRecord<C> rec = record_ray<C>(ray, settings, context);
     // distribute
     if (!rec.empty()) distribute(rec, beta, context.arena);
@@ -35,7 +36,7 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
     }
 
     // estimate
-    const int light_samples = scene.render.light_samples.value_or(bounce == 0 ? scene.balanced_light_samples : 1);
+    const int light_samples = bounce == 0 || scene.render.light_samples ? scene.light_samples : 1;
     MarchedShadows<C> shadows(bounce, context);
     if (!rec.empty()) {
       radiance += beta * emitted_radiance(rec);
@@ -58,10 +59,11 @@ Color DecoupledIntegrator::radiance(const Ray& camera_ray, SampleContext& contex
 }
 
 IntegratorType decoupled_integrator_type() {
-  return {integrator_table("decoupled", "Decoupled ray-marching",
-                           "Marches each ray once, then draws light samples from what it recorded (Kulla 2011).",
-                           {sampling_params(), light_params(), march_params(), path_params(), random_params()}),
-          make_as<DecoupledIntegrator>};
+  return {
+      integrator_table("decoupled", "Decoupled ray-marching",
+                       "Marches each ray once, then draws light samples from what it recorded (Kulla 2011).",
+                       {sampling_params(), balanced_light_params(), march_params(), path_params(), random_params()}),
+      make_as<DecoupledIntegrator>};
 }
 
 }  // namespace brume

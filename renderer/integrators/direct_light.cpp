@@ -21,8 +21,8 @@ template <int C> struct LightSampling {
 
   /// sigma_s T L_scattered at a point of the ray, whose shadow is left to be seen: the integrand of single scattering
   /// over the densities of the light direction, times `factor`, which holds what divides it.
-  void carry(const Light& light, const IncomingLight& in, const RayPoint<C>& at, float factor, const LightNumbers& numbers,
-             int k) const {
+  void carry(const Light& light, const IncomingLight& in, const RayPoint<C>& at, float factor,
+             const LightNumbers& numbers, int k) const {
     Color carried = beta * in.scattered * factor;
     for (int c = 0; c < 3; ++c) {
       const int channel = C == 1 ? 0 : c;
@@ -84,8 +84,8 @@ template <int C> struct LightSampling {
     const auto u = numbers.distances(Decision::DensityDistance);
     for (int k = 0; k < samples; ++k) {
       const auto [at, pdf] = product.sample(u(k, samples));
-      at_distance(at, pdf, light, light.sample_point(numbers.point(k)), weight / static_cast<float>(samples), numbers, k,
-                  false);
+      at_distance(at, pdf, light, light.sample_point(numbers.point(k)), weight / static_cast<float>(samples), numbers,
+                  k, false);
     }
   }
 
@@ -93,8 +93,12 @@ template <int C> struct LightSampling {
     const Scene& scene = context.scene;
     const LightPoint middle{LightPoint::Kind::Finite, pivot.position, {}, pivot.normal};
     const bool has_one_lit_part = pivot.normal != Vec3() || pivot.radius == 0;
-    return {record, ray, pivot, has_one_lit_part ? lit_part(light, middle) : record.span(),
-            scene.phases.size() == 1 ? scene.phases[0].get() : nullptr, context.arena};
+    return {record,
+            ray,
+            pivot,
+            has_one_lit_part ? lit_part(light, middle) : record.span(),
+            scene.phases.size() == 1 ? scene.phases[0].get() : nullptr,
+            context.arena};
   }
 
   /// What a light adds to the ray unless there are shadows, roughly.
@@ -118,8 +122,8 @@ template <int C> struct LightSampling {
            scene.render.light_selection == LightSelection::One && scene.lights.size() > 1;
   }
 
-  /// All samples go to one light, picked by what the lights promise; each by a tenth of what it would be among equals at
-  /// least, for a promise is not kept to the letter.
+  /// All samples go to one light, picked by what the lights promise; each by a tenth of what it would be among equals
+  /// at least, for a promise is not kept to the letter.
   void from_picked_light(int samples) const {
     const ArenaScope scope(context.arena);
     const auto& lights = context.scene.lights;
@@ -180,8 +184,9 @@ void direct_light(const MarchRecord<C>& record, const Ray& ray, Color beta, int 
                   SampleContext& context, MarchedShadows<C>& shadows) {
   const LightSampling<C> sampling{record, ray, beta, bounce, context, shadows};
   if (sampling.picks_by_product()) return sampling.from_picked_light(samples);
-  for_lights(bounce, 0, samples, context,
-             [&](const Light& light, float weight, const LightNumbers& numbers) { sampling.from_light(light, weight, numbers); });
+  for_lights(bounce, 0, samples, context, [&](const Light& light, float weight, const LightNumbers& numbers) {
+    sampling.from_light(light, weight, numbers);
+  });
 }
 
 template void direct_light<1>(const MarchRecord<1>&, const Ray&, Color, int, int, SampleContext&, MarchedShadows<1>&);

@@ -9,7 +9,8 @@ namespace brume {
 /// origin, for the throughput `beta` at its start. Every one is a shadow ray, left to `shadows`: a point of the light
 /// is drawn first, then a distance by density sampling, by equi-angular sampling about that very point, or by one of
 /// each weighted by MIS.
-/// @param record  distributed, with scattered() > 0.  @param bounce  scattered rays so far.  @param samples  of each light
+/// @param record  distributed, with scattered() > 0.  @param bounce  scattered rays so far.  @param samples  of each
+/// light
 template <int C>
 void direct_light(const MarchRecord<C>& record, const Ray& ray, Color beta, int bounce, int samples,
                   SampleContext& context, MarchedShadows<C>& shadows);

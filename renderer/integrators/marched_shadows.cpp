@@ -6,50 +6,55 @@ template <int C>
 MarchedShadows<C>::MarchedShadows(int bounce, SampleContext& context)
     : bounce_(bounce),
       context_(context),
-      rays_(context.arena.alloc_span<ShadowRay>(kWaiting)),
+      rays_(kWaiting, context.arena),
       carried_(context.arena.alloc_span<Color>(kWaiting)),
       index_(context.arena.alloc_span<int>(kWaiting)),
       transmittances_(context.arena.alloc_span<Spectrum<C>>(kWaiting)) {}
 
 template <int C>
 void MarchedShadows<C>::add(const Light&, const Ray& shadow, Color carried, const LightNumbers& numbers, int k) {
-  if (waiting_ == kWaiting) march();
-  rays_[waiting_] = {shadow, numbers.shadow_offset(k)};
-  carried_[waiting_] = carried;
-  index_[waiting_] = numbers.index(k);
-  ++waiting_;
+  if (rays_.n == kWaiting) march();
+  carried_[static_cast<std::size_t>(rays_.n)] = carried;
+  index_[static_cast<std::size_t>(rays_.n)] = numbers.index(k);
+  rays_.add(shadow, numbers.shadow_offset(k));
 }
 
 template <int C> void MarchedShadows<C>::play_roulette() {
   constexpr float kFaint = 0.02f;
+  const int waiting = rays_.n;
   float sum = 0;
-  for (std::size_t i = 0; i < waiting_; ++i) sum += luminance(carried_[i]);
-  const float faint = kFaint * sum / static_cast<float>(waiting_);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < waiting_; ++i) {
-    const float survival = luminance(carried_[i]) / faint;
+  for (const Color& c : carried_.first(static_cast<std::size_t>(waiting))) sum += luminance(c);
+  const float faint = kFaint * sum / static_cast<float>(waiting);
+  rays_.n = 0;
+  for (int i = 0; i < waiting; ++i) {
+    Color carried = carried_[static_cast<std::size_t>(i)];
+    const float survival = luminance(carried) / faint;
     if (survival < 1) {
-      if (context_.sampler.u1(Decision::ShadowRoulette, bounce_, index_[i]) >= survival) continue;
-      carried_[i] *= 1 / survival;
+      const int index = index_[static_cast<std::size_t>(i)];
+      if (context_.sampler.u1(Decision::ShadowRoulette, bounce_, index) >= survival) continue;
+      carried *= 1 / survival;
     }
-    rays_[kept] = rays_[i], carried_[kept] = carried_[i];
-    ++kept;
+    carried_[static_cast<std::size_t>(rays_.n)] = carried;
+    if (rays_.n == i)
+      ++rays_.n;
+    else
+      rays_.add(rays_[i], rays_.offset[i]);
   }
-  waiting_ = kept;
 }
 
 template <int C> void MarchedShadows<C>::march() {
   play_roulette();
   const Scene& scene = context_.scene;
-  context_.statistics.shadow_rays += waiting_;
-  shadow_transmittances<C>(scene.media, rays_.first(waiting_), scene.shadow_step_size, scene.render.time,
-                           context_.arena, context_.statistics.march, transmittances_.first(waiting_));
-  for (std::size_t i = 0; i < waiting_; ++i) sum_ += carried_[i] * to_color(transmittances_[i]);
-  waiting_ = 0;
+  context_.statistics.shadow_rays += static_cast<std::uint64_t>(rays_.n);
+  shadow_transmittances<C>(scene.media, rays_, scene.shadow_step_size, scene.render.time, context_.arena,
+                           context_.statistics.march, transmittances_.data());
+  for (int i = 0; i < rays_.n; ++i)
+    sum_ += carried_[static_cast<std::size_t>(i)] * to_color(transmittances_[static_cast<std::size_t>(i)]);
+  rays_.n = 0;
 }
 
 template <int C> Color MarchedShadows<C>::light() {
-  if (waiting_ > 0) march();
+  if (rays_.n > 0) march();
   return sum_;
 }
 

@@ -8,9 +8,9 @@
 namespace brume {
 
 /// Collects light samples that wait for the transmittance of their shadow rays, and adds up what arrives. What a sample
-/// carries is the most that it can add: where that is below a fiftieth of the mean of those it waits with, its shadow ray
-/// is only traced as often as it deserves, and then counts for more (Russian roulette), so that lights too faint to see
-/// cost little. Lives in the arena scope that was open when it was made.
+/// carries is the most that it can add: where that is below a fiftieth of the mean of those it waits with, its shadow
+/// ray is only traced as often as it deserves, and then counts for more (Russian roulette), so that lights too faint to
+/// see cost little. Lives in the arena scope that was open when it was made.
 template <int C> class MarchedShadows {
  public:
   MarchedShadows(int bounce, SampleContext& context);
@@ -23,18 +23,17 @@ template <int C> class MarchedShadows {
   Color light();
 
  private:
-  static constexpr std::size_t kWaiting = 32;  // at most; with some thirty steps each they fill the look-ups' vectors
+  static constexpr int kWaiting = 32;  // at most; with some thirty steps each they fill the look-ups' vectors
 
   void play_roulette();
   void march();
 
   int bounce_;
   SampleContext& context_;
-  std::span<ShadowRay> rays_;
+  ShadowRays rays_;
   std::span<Color> carried_;
   std::span<int> index_;
   std::span<Spectrum<C>> transmittances_;
-  std::size_t waiting_ = 0;
   Color sum_;
 };
 

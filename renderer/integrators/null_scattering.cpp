@@ -49,15 +49,17 @@ template <int C> struct Leg {
     const Color value = to_color(path.f * n * at.sigma_s) / tracked;
     if (is_black(value)) return {};
     TrackedShadows<C> shadows(bounce, context);
-    for_light_samples(
-        bounce, 0, light_samples(context.scene), context, [&](const Light& light, float factor, const LightNumbers& numbers, int k) {
-          const LightPoint point = light.sample_point(numbers.point(k));
-          const IncomingLight in = LightTechnique<C>(light, context, bounce, numbers.index(k)).draw(point, x, phase);
-          if (is_black(in.scattered)) return;
-          const float mine = tracked * in.pdf_ratio;
-          const float other = mean_of(path.p) * equiangular_pdf(light, in.point, at.t, inside);
-          shadows.add(light, {x, in.wi, {0, in.distance}}, value * in.scattered * (factor * mine / (mine + other)), numbers, k);
-        });
+    for_light_samples(bounce, 0, context.scene.light_samples, context,
+                      [&](const Light& light, float factor, const LightNumbers& numbers, int k) {
+                        const LightPoint point = light.sample_point(numbers.point(k));
+                        const IncomingLight in =
+                            LightTechnique<C>(light, context, bounce, numbers.index(k)).draw(point, x, phase);
+                        if (is_black(in.scattered)) return;
+                        const float mine = tracked * in.pdf_ratio;
+                        const float other = mean_of(path.p) * equiangular_pdf(light, in.point, at.t, inside);
+                        shadows.add(light, {x, in.wi, {0, in.distance}},
+                                    value * in.scattered * (factor * mine / (mine + other)), numbers, k);
+                      });
     return shadows.light();
   }
 
@@ -66,14 +68,16 @@ template <int C> struct Leg {
   Color about_lights(Interval inside) const {
     TrackedShadows<C> shadows(bounce, context);
     for_light_samples(
-        bounce, 1, light_samples(context.scene), context, [&](const Light& light, float factor, const LightNumbers& numbers, int k) {
+        bounce, 1, context.scene.light_samples, context,
+        [&](const Light& light, float factor, const LightNumbers& numbers, int k) {
           const LightPoint point = light.sample_point(numbers.point(k));
           if (point.kind != LightPoint::Kind::Finite) return;
           const Interval lit = intersect(inside, light.lit_part(point, {ray.origin, ray.direction, inside}));
           if (lit.empty()) return;
           const ArenaScope scope(context.arena);
-          const DistanceSample drawn = EquiangularSampling(ray, point.position, lit)
-                                           .sample(numbers.distances(Decision::EquiangularDistance)(k, numbers.count()));
+          const DistanceSample drawn =
+              EquiangularSampling(ray, point.position, lit)
+                  .sample(numbers.distances(Decision::EquiangularDistance)(k, numbers.count()));
           if (!(drawn.pdf_t > 0)) return;
           const Collision<C> at = collision_at<C>(context.scene.media, ray, drawn.t, context.scene.render.time,
                                                   context.arena, context.statistics.march);
@@ -82,8 +86,9 @@ template <int C> struct Leg {
           if (mean_of(at.sigma_s) == 0) return;
           const IncomingLight in = LightTechnique<C>(light, context, bounce, numbers.index(k)).towards(point, x, phase);
           if (is_black(in.scattered)) return;
-          const Spectrum<C> n = tracked_transmittance<C>({ray.origin, ray.direction, {ray.span.begin, drawn.t}},
-                                                         Decision::EquiangularFlight, bounce, numbers.index(k), context);
+          const Spectrum<C> n =
+              tracked_transmittance<C>({ray.origin, ray.direction, {ray.span.begin, drawn.t}},
+                                       Decision::EquiangularFlight, bounce, numbers.index(k), context);
           const float mine = mean_of(path.p) * drawn.pdf_t;
           const float other = tracked_pdf(n, at.sigma_t) * in.pdf_ratio;
           const Color value = to_color(path.f * n * at.sigma_s) * in.scattered;
@@ -151,7 +156,8 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
       path.f = path.f * n;
       path.p = path.p * n;
       TrackedShadows<C> shadows(bounce, context);
-      light_at_surface<C>(*surface, to_color(path.f) / mean_of(path.p), bounce, 2, light_samples(scene), context, shadows);
+      light_at_surface<C>(*surface, to_color(path.f) / mean_of(path.p), bounce, 2, scene.light_samples, context,
+                          shadows);
       radiance += shadows.light();
       if (!turn(surface->position, DiffuseReflection<C>(surface->normal, surface->albedo))) return radiance;
     }

@@ -12,9 +12,6 @@ namespace brume {
 /// @return the factor of what survives; 0 ends the path
 float roulette(Color beta, int bounce, const SampleContext& context);
 
-/// Light samples of each light where every step or collision is lit.
-inline int light_samples(const Scene& scene) { return scene.render.light_samples.value_or(1); }
-
 /// The channel that leads a tracked path: drawn where there are several, each with the same probability.
 template <int C> int leading_channel(const Sampler& sampler) {
   return C == 1 ? 0 : std::min(static_cast<int>(C * sampler.u1(Decision::Channel)), C - 1);
@@ -42,8 +39,8 @@ Color visible_lights(const Scene& scene, const Ray& ray, const std::optional<Sur
   return sum;
 }
 
-/// Calls f(light, weight, numbers of its samples) for every light, or for one that is picked, which then counts as often as
-/// there are lights.
+/// Calls f(light, weight, numbers of its samples) for every light, or for one that is picked, which then counts as
+/// often as there are lights.
 /// @param place  of the point among those of its ray, for the random numbers.  @param samples  of each light
 template <class F> void for_lights(int bounce, int place, int samples, const SampleContext& context, const F& f) {
   const Scene& scene = context.scene;
@@ -60,8 +57,8 @@ template <class F> void for_lights(int bounce, int place, int samples, const Sam
       LightNumbers(context.sampler, bounce, place * lights + l, samples));
 }
 
-/// Calls f(light, factor, numbers, k) for `samples` samples of each of those lights. The factors are those of a mean over
-/// the samples.
+/// Calls f(light, factor, numbers, k) for `samples` samples of each of those lights. The factors are those of a mean
+/// over the samples.
 template <class F>
 void for_light_samples(int bounce, int place, int samples, const SampleContext& context, const F& f) {
   for_lights(bounce, place, samples, context, [&](const Light& light, float weight, const LightNumbers& numbers) {
@@ -69,19 +66,27 @@ void for_light_samples(int bounce, int place, int samples, const SampleContext& 
   });
 }
 
-/// Light that a vertex of a path scatters once towards where the path comes from: the mean over the light samples of
-/// factor * value * L, each handed to the shadows, which multiply it by the transmittance of its shadow ray.
+/// One sample of the light that a vertex of a path scatters once towards where the path comes from: factor * value * L,
+/// handed to the shadows, which multiply it by the transmittance of its shadow ray.
 /// @param shadows  MarchedShadows or TrackedShadows: add(light, shadow ray, carried, numbers, k)
+template <int C, Scatterer<C> S, class Shadows>
+void light_sample_at(Vec3 x, const S& scatterer, Color factor, const Light& light, const LightNumbers& numbers,
+                     int bounce, int k, SampleContext& context, Shadows& shadows) {
+  const LightPoint point = light.sample_point(numbers.point(k));
+  const IncomingLight in = LightTechnique<C>(light, context, bounce, numbers.index(k)).draw(point, x, scatterer);
+  if (is_black(in.scattered)) return;
+  shadows.add(light, Ray{x, in.wi, {0, in.distance}}, factor * in.scattered, numbers, k);
+}
+
+/// Light that a vertex of a path scatters once towards where the path comes from: the mean over the light samples of
+/// factor * value * L.
 template <int C, Scatterer<C> S, class Shadows>
 void light_at_point(Vec3 x, const S& scatterer, Color factor, int bounce, int place, int samples,
                     SampleContext& context, Shadows& shadows) {
-  for_light_samples(
-      bounce, place, samples, context, [&](const Light& light, float weight, const LightNumbers& numbers, int k) {
-        const LightPoint point = light.sample_point(numbers.point(k));
-        const IncomingLight in = LightTechnique<C>(light, context, bounce, numbers.index(k)).draw(point, x, scatterer);
-        if (is_black(in.scattered)) return;
-        shadows.add(light, Ray{x, in.wi, {0, in.distance}}, factor * in.scattered * weight, numbers, k);
-      });
+  for_light_samples(bounce, place, samples, context,
+                    [&](const Light& light, float weight, const LightNumbers& numbers, int k) {
+                      light_sample_at<C>(x, scatterer, factor * weight, light, numbers, bounce, k, context, shadows);
+                    });
 }
 
 /// The same for the surface that closes a ray.

@@ -47,22 +47,27 @@ template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context
     if (!rec.empty()) radiance += beta * emitted_radiance(rec);
     Shadows<C> shadows(*this, bounce, context);
 
+    // The samples of a light are numbered along the ray, step after step, so that they are spread over all of them.
+    const int samples = scene.light_samples, all = rec.n * samples;
     const bool scatters = !rec.empty() && rec.scattered() > 0;
-    for (int i = 0; scatters && i < rec.n; ++i) {
-      const ArenaScope step_scope(context.arena);
-      const float width = rec.t[i + 1] - rec.t[i];
-      const RayPoint<C> at = evaluate(rec, rec.t[i] + settings.offset * width, i);
-      Color scattered;
-      for (int c = 0; c < 3; ++c) {
-        const int channel = C == 1 ? 0 : c;
-        scattered[c] = at.sigma_s[channel] * at.transmittance[channel] * width;
+    for_lights(bounce, 0, all, context, [&](const Light& light, float weight, const LightNumbers& numbers) {
+      for (int i = 0; scatters && i < rec.n; ++i) {
+        const ArenaScope step_scope(context.arena);
+        const float width = rec.t[i + 1] - rec.t[i];
+        const RayPoint<C> at = evaluate(rec, rec.t[i] + settings.offset * width, i);
+        Color scattered = beta * (weight / static_cast<float>(samples));
+        for (int c = 0; c < 3; ++c) {
+          const int channel = C == 1 ? 0 : c;
+          scattered[c] *= at.sigma_s[channel] * at.transmittance[channel] * width;
+        }
+        if (is_black(scattered)) continue;
+        const PhaseMixture<C> phase(scene, ray.direction, rec, i, context.arena);
+        for (int k = i * samples; k < (i + 1) * samples; ++k)
+          light_sample_at<C>(ray.at(at.t), phase, scattered, light, numbers, bounce, k, context, shadows);
       }
-      if (is_black(scattered)) continue;
-      const PhaseMixture<C> phase(scene, ray.direction, rec, i, context.arena);
-      light_at_point<C>(ray.at(at.t), phase, beta * scattered, bounce, i, light_samples(scene), context, shadows);
-    }
+    });
     if (surface)
-      light_at_surface<C>(*surface, beta * to_color(transmittance(rec)), bounce, rec.n, light_samples(scene), context, shadows);
+      light_at_surface<C>(*surface, beta * to_color(transmittance(rec)), bounce, 1, samples, context, shadows);
     radiance += shadows.light();
     if (bounce == scene.render.bounces) return radiance;
     if (!scatter(rec, surface, ray, beta, bounce, context)) return radiance;

@@ -90,7 +90,7 @@ template <int C> struct Marching {
   }
 
   /// Distances on a ray, each with one sample of each light.
-  int samples() const { return light_samples(context.scene); }
+  int samples() const { return context.scene.light_samples; }
 
   /// @param surface  that closes the ray
   void march(const std::optional<SurfaceHit>& surface) {

@@ -10,7 +10,9 @@ class PointLight final : public Light {
   PointLight(Vec3 position, Color intensity) : position_(position), intensity_(intensity) {}
   LightPoint sample_point(Vec2) const override;
   IncidentLight incident(const LightPoint& point, Vec3 x) const override;
-  std::optional<LightPivot> pivot() const override { return LightPivot{.position = position_, .intensity = intensity_}; }
+  std::optional<LightPivot> pivot() const override {
+    return LightPivot{.position = position_, .intensity = intensity_};
+  }
 
  private:
   Vec3 position_;

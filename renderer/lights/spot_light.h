@@ -14,7 +14,9 @@ class SpotLight final : public Light {
   LightPoint sample_point(Vec2) const override;
   IncidentLight incident(const LightPoint& point, Vec3 x) const override;
   Interval lit_part(const LightPoint& point, const Ray& ray) const override;
-  std::optional<LightPivot> pivot() const override { return LightPivot{.position = position_, .intensity = intensity_}; }
+  std::optional<LightPivot> pivot() const override {
+    return LightPivot{.position = position_, .intensity = intensity_};
+  }
 
  private:
   Vec3 position_, axis_;

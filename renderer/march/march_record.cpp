@@ -105,7 +105,8 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
     const float middle = 0.5f * (stretch.span.begin + stretch.span.end);
     for (std::size_t m = 0; m < media.size(); ++m)
       if (!media[m].traits.constant && presence.contains(m, middle)) stretch.uniform = false;
-    if (!stretch.uniform || settings.split_homogeneous) stretch.count = segment_count(stretch.span.length(), stretch.step, counts);
+    if (!stretch.uniform || settings.split_homogeneous)
+      stretch.count = segment_count(stretch.span.length(), stretch.step, counts);
     rec.longest = std::max(rec.longest, stretch.count == 1 ? stretch.span.length() : stretch.step);
     rec.n += stretch.count;
   }

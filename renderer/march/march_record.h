@@ -44,12 +44,12 @@ template <int C> struct MarchRecord {
 
   float longest = 0;  ///< bound of the segments' lengths
 
-  std::array<float*, C> tau = {};  ///< [n + 1] optical depth from t[0] to each edge
+  std::array<float*, C> tau = {};            ///< [n + 1] optical depth from t[0] to each edge
   std::array<float*, C> transmittance = {};  ///< [n + 1] exp(-tau)
   std::array<float*, C> length = {};         ///< [n] integral of the transmittance over the segment
-  const float* p = nullptr;    ///< [n] P_i: what segment i scatters, not normalised
-  const float* cdf = nullptr;  ///< [n + 1] running sum of P_i
-  Spectrum<C> weight = {};     ///< of the channels in P_i
+  const float* p = nullptr;                  ///< [n] P_i: what segment i scatters, not normalised
+  const float* cdf = nullptr;                ///< [n + 1] running sum of P_i
+  Spectrum<C> weight = {};                   ///< of the channels in P_i
 
   bool empty() const { return n == 0; }
   Interval span() const { return {t[0], t[n]}; }

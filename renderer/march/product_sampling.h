@@ -39,9 +39,9 @@ template <int C> class ProductSampling {
   const MarchRecord<C>& record_;
   DensitySampling<C> density_;
   Interval lit_;
-  float foot_;             // t of the pivot's foot on the ray
-  float distance_;         // of the pivot from the ray; at least its radius
-  const float* cdf_;       // [n + 1]
+  float foot_;        // t of the pivot's foot on the ray
+  float distance_;    // of the pivot from the ray; at least its radius
+  const float* cdf_;  // [n + 1]
 };
 
 }  // namespace brume

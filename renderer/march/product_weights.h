@@ -5,13 +5,13 @@ namespace brume {
 
 /// A light as a ray sees it. Lengths in world units, along the ray from its origin.
 struct ProductTerms {
-  float foot;          ///< of the light on the ray
-  float off_ray;       ///< distance of the light from the ray
-  float distance;      ///< the same, but at least the light's radius: 1/(distance^2 + s^2) stays bounded
-  float height;        ///< of the ray's origin above the light's plane
-  float slope;         ///< by which it grows along the ray
-  bool two_sided;      ///< lit below the plane too
-  bool flat;           ///< has a plane at all
+  float foot;      ///< of the light on the ray
+  float off_ray;   ///< distance of the light from the ray
+  float distance;  ///< the same, but at least the light's radius: 1/(distance^2 + s^2) stays bounded
+  float height;    ///< of the ray's origin above the light's plane
+  float slope;     ///< by which it grows along the ray
+  bool two_sided;  ///< lit below the plane too
+  bool flat;       ///< has a plane at all
 };
 
 /// cosine[i] between the ray's direction and that of light that comes from the pivot to the middle of segment i.

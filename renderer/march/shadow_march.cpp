@@ -2,55 +2,51 @@
 
 #include <algorithm>
 
-#include "renderer/march/step_loops.h"
-
 namespace brume {
 namespace {
 
 // What a medium is asked for at once: the look-ups of short shadow rays are done together.
-constexpr int kPoints = 384, kPieces = 32;
-
-/// A shadow ray's points among those; of a long ray, as many as fit.
-struct Piece {
-  std::size_t ray;
-  int first, n;
-  float step;  // between the points
-  float last;  // length of the segment of the last point
-};
+constexpr int kPoints = 256, kRows = 32, kVector = 16;
 
 /// Optical amounts (integrals of the density) of many rays in one medium.
 class Amounts {
  public:
-  Amounts(const Medium& medium, float time, Arena& arena, std::span<double> amounts)
-      : medium_(medium), time_(time), amounts_(amounts), pieces_(arena.alloc_span<Piece>(kPieces)) {
-    for (float*& axis : position_) axis = arena.alloc_span<float>(kPoints + kVector).data();
-    density_ = arena.alloc_span<float>(kPoints + kVector).data();
+  Amounts(const Medium& medium, const ShadowRays& rays, float step, float time, Arena& arena, MarchCounts& counts,
+          double* amounts)
+      : medium_(medium),
+        rays_(rays),
+        step_(step),
+        time_(time),
+        counts_(counts),
+        amounts_(amounts),
+        rows_(arena.alloc_span<ShadowRow>(kRows)) {
+    for (float** array : {&x_, &y_, &z_, &density_}) *array = arena.alloc_span<float>(kPoints + kVector).data();
   }
 
-  void add(std::size_t number, const ShadowRay& shadow, const Interval& span, float step, MarchCounts& counts) {
+  void add(int ray, const Interval& span) {
     if (medium_.traits.constant) {
-      amounts_[number] += static_cast<double>(span.length());
+      amounts_[ray] += static_cast<double>(span.length());
       return;
     }
-    const int count = segment_count(span.length(), step, counts);
-    counts.lookups += static_cast<std::uint64_t>(count);
-    const float last = span.length() - static_cast<float>(count - 1) * step;  // the last segment may be shorter
-    const float first = span.begin + shadow.offset * step;
+    float step = step_;
+    const int count = segment_count(span.length(), step, counts_);
+    counts_.lookups += static_cast<std::uint64_t>(count);
+    const float offset = rays_.offset[ray];
+    const float last_begin = span.begin + static_cast<float>(count - 1) * step;
+    const float last_step = span.end - last_begin;  // the last segment may be shorter
     // A ray begins where all of it fits, so that its sum has the same bits whatever it is marched with.
     for (int i = 0; i < count;) {
       const int n = std::min(count - i, kPoints);
-      if (n > kPoints - points_ || pieces_used_ == kPieces) look_up();
+      if (n > kPoints - points_ || row_count_ == kRows) look_up();
       const bool ends = i + n == count;
-      const PointRow row{first + static_cast<float>(i) * step, step, n};
-      float* const x = position_[0] + points_;
-      float* const y = position_[1] + points_;
-      float* const z = position_[2] + points_;
-      write_points(shadow.ray, row, x, y, z);
-      if (ends) {
-        const Vec3 p = shadow.ray.at(span.begin + static_cast<float>(count - 1) * step + shadow.offset * last);
-        x[n - 1] = p.x, y[n - 1] = p.y, z[n - 1] = p.z;
-      }
-      pieces_[pieces_used_++] = {number, points_, n, step, ends ? last : step};
+      const float first = span.begin + (static_cast<float>(i) + offset) * step;
+      rows_[row_count_++] = {.ray = ray,
+                             .first = points_,
+                             .n = n,
+                             .begin = first,
+                             .step = step,
+                             .last = ends ? last_begin + offset * last_step : first + static_cast<float>(n - 1) * step,
+                             .last_step = ends ? last_step : step};
       points_ += n;
       i += n;
     }
@@ -58,52 +54,59 @@ class Amounts {
 
   void look_up() {
     if (points_ == 0) return;
-    medium_.shader->density({position_[0], position_[1], position_[2], points_, time_}, density_);
-    for (const Piece& piece : pieces_.first(pieces_used_)) {
-      const float* density = density_ + piece.first;
-      amounts_[piece.ray] += static_cast<double>(sum(density, piece.n - 1)) * static_cast<double>(piece.step) +
-                             static_cast<double>(density[piece.n - 1] * piece.last);
-    }
-    points_ = 0, pieces_used_ = 0;
+    const auto rows = rows_.first(row_count_);
+    write_points(rays_, rows, x_, y_, z_);
+    medium_.shader->density({x_, y_, z_, points_, time_}, density_);
+    add_amounts(rows, density_, amounts_);
+    points_ = 0, row_count_ = 0;
   }
 
  private:
-  static constexpr int kVector = 16;  // loops write whole vectors
   const Medium& medium_;
-  float time_;
-  std::span<double> amounts_;
-  std::span<Piece> pieces_;
-  std::size_t pieces_used_ = 0;
-  float* position_[3];
-  float* density_;
+  const ShadowRays& rays_;
+  float step_, time_;
+  MarchCounts& counts_;
+  double* amounts_;
+  std::span<ShadowRow> rows_;
+  std::size_t row_count_ = 0;
+  float *x_, *y_, *z_, *density_;
   int points_ = 0;
 };
 
 }  // namespace
 
 template <int C>
-void shadow_optical_depths(std::span<const Medium> media, std::span<const ShadowRay> rays, float step, float time,
-                           Arena& arena, MarchCounts& counts, std::span<Spectrum<C>> depths) {
+void shadow_optical_depths(std::span<const Medium> media, const ShadowRays& rays, float step, float time, Arena& arena,
+                           MarchCounts& counts, Spectrum<C>* depths) {
   const ArenaScope scope(arena);
-  std::fill(depths.begin(), depths.end(), Spectrum<C>{});
-  const auto amounts = arena.alloc_span<double>(rays.size());
+  const auto n = static_cast<std::size_t>(rays.n);
+  std::fill_n(depths, n, Spectrum<C>{});
+  double* const amounts = arena.alloc_span<double>(n).data();
+  float* const from = arena.alloc_span<float>(n).data();
+  float* const to = arena.alloc_span<float>(n).data();
   for (const Medium& medium : media) {
     const ArenaScope medium_scope(arena);
-    std::fill(amounts.begin(), amounts.end(), 0.0);
-    Amounts march(medium, time, arena, amounts);
-    for (std::size_t r = 0; r < rays.size(); ++r) {
-      const ArenaScope ray_scope(arena);
-      for (const Interval& span : medium.intervals(rays[r].ray, arena)) march.add(r, rays[r], span, step, counts);
+    std::fill_n(amounts, n, 0.0);
+    Amounts march(medium, rays, step, time, arena, counts, amounts);
+    if (const auto box = medium.shape->box()) {
+      clip_to_box(rays, medium.shape_from_scene, Vec3(box->low), Vec3(box->high), from, to);
+      for (int r = 0; r < rays.n; ++r)
+        if (const Interval inside{from[r], to[r]}; !inside.empty()) march.add(r, inside);
+    } else {
+      for (int r = 0; r < rays.n; ++r) {
+        const ArenaScope ray_scope(arena);
+        for (const Interval& inside : medium.intervals(rays[r], arena)) march.add(r, inside);
+      }
     }
     march.look_up();
-    for (std::size_t r = 0; r < rays.size(); ++r)
+    for (std::size_t r = 0; r < n; ++r)
       for (int c = 0; c < C; ++c) depths[r][c] += medium.sigma_t[c] * static_cast<float>(amounts[r]);
   }
 }
 
-template void shadow_optical_depths<1>(std::span<const Medium>, std::span<const ShadowRay>, float, float, Arena&,
-                                       MarchCounts&, std::span<Spectrum<1>>);
-template void shadow_optical_depths<3>(std::span<const Medium>, std::span<const ShadowRay>, float, float, Arena&,
-                                       MarchCounts&, std::span<Spectrum<3>>);
+template void shadow_optical_depths<1>(std::span<const Medium>, const ShadowRays&, float, float, Arena&, MarchCounts&,
+                                       Spectrum<1>*);
+template void shadow_optical_depths<3>(std::span<const Medium>, const ShadowRays&, float, float, Arena&, MarchCounts&,
+                                       Spectrum<3>*);
 
 }  // namespace brume

@@ -102,9 +102,7 @@ class Shift {
     low_ = hn::RebindMask(D(), hn::Lt(from(by), hn::Zero(DI())));
   }
   HWY_INLINE V operator()(V v, V below) const { return hn::IfThenElse(low_, below, hn::TableLookupLanes(v, indices_)); }
-  HWY_INLINE V operator()(V v) const {
-    return hn::IfThenZeroElse(low_, hn::TableLookupLanes(v, indices_));
-  }
+  HWY_INLINE V operator()(V v) const { return hn::IfThenZeroElse(low_, hn::TableLookupLanes(v, indices_)); }
 
  private:
   static HWY_INLINE hn::Vec<DI> from(int by) { return hn::Sub(hn::Iota(DI(), 0), hn::Set(DI(), by)); }
@@ -152,7 +150,8 @@ class ShortCarry {
   V sum_;  // all lanes
 };
 
-/// The same in double, for so many vectors that their roundings would show; added to sums inside a vector as two floats.
+/// The same in double, for so many vectors that their roundings would show; added to sums inside a vector as two
+/// floats.
 class LongCarry {
  public:
   HWY_INLINE V plus(V within) const {

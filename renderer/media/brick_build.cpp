@@ -81,7 +81,7 @@ LeafSummary mend_and_summarise(LeafBlock& leaf, const VoxelBox& box) {
     const bool finite = std::isfinite(v), negative = finite && v < 0;
     s.non_finite += !finite;
     s.negative += negative;
-    v = finite && !negative ? v : 0.0f;
+    v = finite && v > 0 ? v : 0.0f;  // without the sign of -0, which half floats are looked up without
     s.high = std::max(s.high, v);
   }
   s.constant = true;
@@ -322,7 +322,7 @@ class BrickBuilder {
   std::uint64_t value_bytes() const { return (stored_.size() + 1) * bytes_per_brick(layout()); }
 
   BrickLayout layout() const {
-    if (options_.full_precision) return BrickLayout::Full;
+    if (options_.full_precision || grid_.max_value_ > BrickValues::kLargestInHalves) return BrickLayout::Full;
     // Large caches are shared with others: what a virtual machine is told is often that of its whole host.
     const std::size_t ours = std::min(last_cache_bytes(), std::size_t{32} << 20);
     const std::size_t quads = (stored_.size() + 1) * bytes_per_brick(BrickLayout::Quad);

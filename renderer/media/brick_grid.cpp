@@ -5,9 +5,7 @@
 
 namespace brume {
 
-std::size_t BrickGrid::memory_bytes() const {
-  return table_.size() * sizeof(std::int32_t) + values_.bytes();
-}
+std::size_t BrickGrid::memory_bytes() const { return table_.size() * sizeof(std::int32_t) + values_.bytes(); }
 
 float BrickGrid::max_value(const Bounds3& box) const {
   std::int64_t first[3], last[3];

@@ -93,10 +93,10 @@ class BrickGrid {
 };
 
 /// Lays `blocks` out as bricks, on all hardware threads: as floats, or, unless options.full_precision, as half floats,
-/// in the fastest layout where the bricks fit the machine's last cache and in the smallest where they do not. The blocks are used up.
-/// A voxel's value is what OpenVDB's getValue() returns for a background of 0; voxels outside the box of the active
-/// ones are 0. Errors: no active voxel; active voxels so far apart that the table would exceed kMaxTableEntries or
-/// kMaxExtent; more memory needed than the machine has; cancelled.
+/// in the fastest layout where the bricks fit the machine's last cache and in the smallest where they do not. The
+/// blocks are used up. A voxel's value is what OpenVDB's getValue() returns for a background of 0; voxels outside the
+/// box of the active ones are 0. Errors: no active voxel; active voxels so far apart that the table would exceed
+/// kMaxTableEntries or kMaxExtent; more memory needed than the machine has; cancelled.
 Result<BrickGrid> build_brick_grid(VoxelBlocks blocks, const LoadOptions& options = {});
 
 }  // namespace brume

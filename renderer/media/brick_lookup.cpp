@@ -167,8 +167,8 @@ struct HalfLayout {
     Edges edges;
     for (int edge = 0; edge < 4; ++edge) {
       const auto pair = hn::Load(du, voxels + edge * kChunk + i);
-      edges.v[edge] = lerp(along_z, shifted_half(hn::And(pair, hn::Set(du, 0xFFFF))),
-                           shifted_half(hn::ShiftRight<16>(pair)));
+      edges.v[edge] =
+          lerp(along_z, shifted_half(hn::And(pair, hn::Set(du, 0xFFFF))), shifted_half(hn::ShiftRight<16>(pair)));
     }
     return edges;
   }
@@ -189,8 +189,8 @@ struct QuadLayout {
     const auto mask = hn::Set(du, 0xFFFF);
     const auto y0 = [&](hn::Vec<DU> v) HWY_ATTR { return shifted_half(hn::And(v, mask)); };
     const auto y1 = [&](hn::Vec<DU> v) HWY_ATTR { return shifted_half(hn::ShiftRight<16>(v)); };
-    return {{lerp(along_z, y0(low0), y0(high0)), lerp(along_z, y1(low0), y1(high0)),
-             lerp(along_z, y0(low1), y0(high1)), lerp(along_z, y1(low1), y1(high1))}};
+    return {{lerp(along_z, y0(low0), y0(high0)), lerp(along_z, y1(low0), y1(high0)), lerp(along_z, y0(low1), y0(high1)),
+             lerp(along_z, y1(low1), y1(high1))}};
   }
 };
 
@@ -237,8 +237,7 @@ void lookup_in(const BrickGrid& grid, const Affine& local_from_scene, const Poin
     addresses.find<Layout::kRowStride>(points, first, count, s);
     pass_through_memory(s);
     for (int c = 0; c < count; c += kChunk)
-      s->filled[c / kChunk] =
-          fetch<Layout>(table, values, s->slot + c, s->corner + c, s->voxels[c / kChunk]);
+      s->filled[c / kChunk] = fetch<Layout>(table, values, s->slot + c, s->corner + c, s->voxels[c / kChunk]);
     pass_through_memory(s);
     for (int c = 0; c < count; c += kChunk) {
       if (s->filled[c / kChunk])
@@ -251,9 +250,12 @@ void lookup_in(const BrickGrid& grid, const Affine& local_from_scene, const Poin
 
 void lookup(const BrickGrid& grid, const Affine& local_from_scene, const PointBatch& points, float scale, float* out) {
   switch (grid.values().layout()) {
-    case BrickLayout::Full: return lookup_in<FullLayout>(grid, local_from_scene, points, scale, out);
-    case BrickLayout::Half: return lookup_in<HalfLayout>(grid, local_from_scene, points, scale, out);
-    case BrickLayout::Quad: return lookup_in<QuadLayout>(grid, local_from_scene, points, scale, out);
+    case BrickLayout::Full:
+      return lookup_in<FullLayout>(grid, local_from_scene, points, scale, out);
+    case BrickLayout::Half:
+      return lookup_in<HalfLayout>(grid, local_from_scene, points, scale, out);
+    case BrickLayout::Quad:
+      return lookup_in<QuadLayout>(grid, local_from_scene, points, scale, out);
   }
 }
 

@@ -21,9 +21,12 @@ int number(int x, int y, int z) { return (x * BrickValues::kCorners + y) * Brick
 
 const char* to_string(BrickLayout layout) {
   switch (layout) {
-    case BrickLayout::Full: return "full";
-    case BrickLayout::Half: return "half";
-    case BrickLayout::Quad: return "quad";
+    case BrickLayout::Full:
+      return "full";
+    case BrickLayout::Half:
+      return "half";
+    case BrickLayout::Quad:
+      return "quad";
   }
   return "";
 }

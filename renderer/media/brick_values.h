@@ -23,13 +23,15 @@ constexpr std::size_t bytes_per_brick(BrickLayout layout) {
   return layout == BrickLayout::Full ? 2944 : layout == BrickLayout::Half ? 1472 : 4608;  // whole cache lines
 }
 
-/// Bricks of one layout. Half floats hold a value over unit(), a power of two that makes the most of their range: values
-/// that half floats can hold stay exact, others are off by 2^-12 of themselves at most, or of 2^-28 times the largest.
+/// Bricks of one layout. Half floats hold a value over unit(), a power of two that makes the most of their range:
+/// values that half floats can hold stay exact, others are off by 2^-12 of themselves at most, or of 2^-28 times the
+/// largest.
 class BrickValues {
  public:
   static constexpr int kCells = 8;    ///< along an edge of a brick
   static constexpr int kCorners = 9;  ///< voxels along an edge
   static constexpr int kVoxels = kCorners * kCorners * kCorners;
+  static constexpr float kLargestInHalves = 0x1p28f;  ///< beyond this, factors of look-ups would overflow
 
   BrickValues() = default;
   /// All voxels of brick 0 are 0; the others are to be stored. Throws std::bad_alloc.

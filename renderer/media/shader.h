@@ -32,7 +32,7 @@ struct ShaderTraits {
   bool constant = false;      ///< density is 1 everywhere inside the bounds: a homogeneous medium
   bool own_emission = false;  ///< emission() gives a field of its own instead of following the density
   std::optional<float> finest_scale =
-      {};  ///< world units: size of the smallest feature (a voxel); sets the automatic step
+      {};                        ///< world units: size of the smallest feature (a voxel); sets the automatic step
   float lookup_nanoseconds = 0;  ///< what a point of density() costs, roughly; only ratios count
 };
 

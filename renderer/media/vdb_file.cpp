@@ -120,8 +120,8 @@ Voxels read_voxels(Archive& file, const GridEntry& entry, GridInfo& info, const 
   set_box(tree, info);
   stop_if_cancelled(options);
   find_leaf_values(c, format, tree);
-  if (auto enough = check_memory(data.size() +
-                                 tree.leaves.size() * (sizeof(LeafBlock) + bytes_per_brick(BrickLayout::Quad)));
+  if (auto enough =
+          check_memory(data.size() + tree.leaves.size() * (sizeof(LeafBlock) + bytes_per_brick(BrickLayout::Quad)));
       !enough)
     throw Damaged{enough.error().message};
 
@@ -193,8 +193,7 @@ GridInfo list_grid(Archive& file, const GridEntry& entry, bool scan) {
   GridInfo info = describe(entry, head);
   const bool readable = info.why_not.empty();
   const bool told = box_from_metadata(head.metadata, info);
-  if (told)
-    info.memory_bytes = *info.active_voxels / 300 * bytes_per_brick(BrickLayout::Quad);  // 300: a usual filling
+  if (told) info.memory_bytes = *info.active_voxels / 300 * bytes_per_brick(BrickLayout::Quad);  // 300: a usual filling
   if (readable && scan) {
     const Voxels voxels = read_voxels(file, entry, info, {});
     scan_values(voxels.blocks, info);

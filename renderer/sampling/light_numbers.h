@@ -7,10 +7,10 @@
 
 namespace brume {
 
-/// The random numbers of `count` samples of one light at one vertex of a path, spread evenly. Each sample on its own has
-/// independent uniform numbers, so a mean over the samples is unbiased. Where the sampler follows a sequence, one number
-/// of the pass shifts all of them at once (systematic sampling; a lattice in more dimensions), so that the passes
-/// interleave; otherwise every sample has its own, inside its stratum.
+/// The random numbers of `count` samples of one light at one vertex of a path, spread evenly. Each sample on its own
+/// has independent uniform numbers, so a mean over the samples is unbiased. Where the sampler follows a sequence, one
+/// number of the pass shifts all of them at once (systematic sampling; a lattice in more dimensions), so that the
+/// passes interleave; otherwise every sample has its own, inside its stratum.
 class LightNumbers {
  public:
   /// @param number  of the set of samples at this bounce, such as that of the light
@@ -42,8 +42,8 @@ class LightNumbers {
   class Distances {
    public:
     float operator()(int k, int strata) const {
-      const float xi = numbers_.together() ? first_ : numbers_.sampler_.u1(decision_, numbers_.bounce_,
-                                                                           numbers_.index(k));
+      const float xi =
+          numbers_.together() ? first_ : numbers_.sampler_.u1(decision_, numbers_.bounce_, numbers_.index(k));
       return below_one((static_cast<float>(k) + xi) / static_cast<float>(strata));
     }
 

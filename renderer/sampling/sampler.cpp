@@ -171,4 +171,3 @@ float Sampler::per_pixel(Decision decision) const {
 }
 
 }  // namespace brume
-

@@ -165,7 +165,7 @@ Result<std::shared_ptr<const Scene>> commit(const Node& description, SceneCache&
   scene->needs = needs_of(*scene);
   scene->step_size = scene->render.step_size.value_or(automatic_step(*scene));
   scene->shadow_step_size = scene->render.shadow_step_size.value_or(scene->step_size);
-  scene->balanced_light_samples = balanced_light_samples(*scene);
+  scene->light_samples = scene->render.light_samples.value_or(balanced_light_samples(*scene));
   return std::shared_ptr<const Scene>(std::move(scene));
 }
 

@@ -29,7 +29,7 @@ struct Scene {
   RenderSettings render;
   float step_size = 1;         ///< world units, resolved
   float shadow_step_size = 1;  ///< world units, resolved
-  int balanced_light_samples = 1;  ///< of each light on a camera ray, where the number is left to the scene
+  int light_samples = 1;       ///< of each light on a camera ray, resolved
 
   std::vector<Medium> media;                                 // enabled volumes
   std::vector<std::unique_ptr<const PhaseFunction>> phases;  ///< of the media, in their order

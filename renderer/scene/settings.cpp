@@ -32,18 +32,34 @@ std::vector<Param> sampling_params() {
               .says("How the two techniques are weighted in MIS.")};
 }
 
+namespace {
+
+Param light_selection() {
+  return param::choice(
+             "light_selection", "Light selection", "all",
+             {{"all", "All", "every light gets its light samples"},
+              {"one", "One", "every ray picks one light: in product sampling by what it may give, else all alike"}})
+      .says("Which lights a ray is lit by.");
+}
+
+}  // namespace
+
 std::vector<Param> light_params() {
   return {param::integer("light_samples", "Light samples", 1)
               .between(1, 256)
               .slider(1, 16)
-              .auto_by_default("as many as balance the cost of the camera ray's march, and one after bounces; one where "
-                               "every step or collision is lit")
+              .says("Shadow rays for each light wherever light is sampled."),
+          light_selection()};
+}
+
+std::vector<Param> balanced_light_params() {
+  return {param::integer("light_samples", "Light samples", 1)
+              .between(1, 256)
+              .slider(1, 16)
+              .auto_by_default("on the camera's rays as many as balance the cost of their march, on scattered rays one")
               .says("Shadow rays per ray and light; in MIS half go to each technique, and of an odd number one "
                     "alternates between passes."),
-          param::choice("light_selection", "Light selection", "all",
-                        {{"all", "All", "every light gets its light samples"},
-                         {"one", "One", "every light sample picks one light, each with the same probability"}})
-              .says("Which lights a ray is lit by.")};
+          light_selection()};
 }
 
 std::vector<Param> majorant_params() {
@@ -112,7 +128,7 @@ RenderSettings read_render_settings(const Node& node) {
   s.step_size = value_or(node, "step_size", std::optional<float>(), length_or_auto("step_size"));
   s.shadow_step_size = value_or(node, "shadow_step_size", std::optional<float>(), length_or_auto("shadow_step_size"));
   s.bounces = value_or(node, "bounces", 0, [](const Node& n) { return n.integer("bounces"); });
-  s.light_samples = value_or(node, "light_samples", std::optional<int>(), [](const Node& n) {
+  s.light_samples = value_or(node, "light_samples", std::optional<int>(1), [](const Node& n) {
     return n.is_auto("light_samples") ? std::optional<int>() : std::optional<int>(n.integer("light_samples"));
   });
   s.light_selection = value_or(node, "light_selection", LightSelection::All, [](const Node& n) {

@@ -26,7 +26,7 @@ struct RenderSettings {
   std::optional<float> step_size;         ///< world units; none: the finest scale of the media
   std::optional<float> shadow_step_size;  ///< world units; none: the step size
   int bounces;
-  std::optional<int> light_samples;  ///< none: what the scene has for the integrator
+  std::optional<int> light_samples;  ///< none: as many as balance the march
   LightSelection light_selection;
   bool russian_roulette;
   int shadow_map_resolution;
@@ -41,13 +41,14 @@ struct FilmSettings {
 };
 
 /// The parameters that integrators of the decoupled kind share; an integrator's table is made of what it uses.
-std::vector<Param> march_params();       ///< step_size, shadow_step_size
-std::vector<Param> sampling_params();    ///< distance_sampling, mis_heuristic
-std::vector<Param> light_params();       ///< light_samples, light_selection
-std::vector<Param> majorant_params();    ///< majorant_cells
-std::vector<Param> shadow_map_params();  ///< shadow_map_resolution
-std::vector<Param> path_params();        ///< bounces, russian_roulette
-std::vector<Param> random_params();      ///< sampler, seed, time
+std::vector<Param> march_params();           ///< step_size, shadow_step_size
+std::vector<Param> sampling_params();        ///< distance_sampling, mis_heuristic
+std::vector<Param> light_params();           ///< light_samples, light_selection
+std::vector<Param> balanced_light_params();  ///< the same, with as many samples as balance the march by default
+std::vector<Param> majorant_params();        ///< majorant_cells
+std::vector<Param> shadow_map_params();      ///< shadow_map_resolution
+std::vector<Param> path_params();            ///< bounces, russian_roulette
+std::vector<Param> random_params();          ///< sampler, seed, time
 
 /// @param node  of an integrator's table; parameters that it does not have get the value that means "none"
 RenderSettings read_render_settings(const Node& node);

@@ -13,10 +13,14 @@ namespace brume {
 
 const char* name_of(DistanceSampling mode) {
   switch (mode) {
-    case DistanceSampling::Density: return "density";
-    case DistanceSampling::Equiangular: return "equi_angular";
-    case DistanceSampling::Mis: return "mis";
-    case DistanceSampling::Product: return "product";
+    case DistanceSampling::Density:
+      return "density";
+    case DistanceSampling::Equiangular:
+      return "equi_angular";
+    case DistanceSampling::Mis:
+      return "mis";
+    case DistanceSampling::Product:
+      return "product";
   }
   return "";
 }

@@ -288,7 +288,11 @@ bool ReferenceMethod::tracks() const {
 
 std::vector<ReferenceMethod> default_reference_methods() {
   using enum DistanceSampling;
-  return {{"null_scattering"}, {"decoupled", Density}, {"decoupled", Equiangular}, {"decoupled", Mis}, {"decoupled", Product}};
+  return {{"null_scattering"},
+          {"decoupled", Density},
+          {"decoupled", Equiangular},
+          {"decoupled", Mis},
+          {"decoupled", Product}};
 }
 
 Result<std::vector<ReferenceMethod>> reference_methods(const std::string& key) {

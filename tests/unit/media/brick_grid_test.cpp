@@ -59,7 +59,8 @@ TEST(BrickGrid, EveryBrickStoresTheFirstVoxelsOfTheNext) {
         const auto brick = static_cast<std::size_t>(grid.table()[slot]);
         for (int e = 0; e < 729; ++e) {
           const VoxelIndex local(e / 81, e / 9 % 9, e % 9);
-          ASSERT_EQ(grid.values().voxel(brick, local.x, local.y, local.z), grid.voxel(origin + VoxelIndex(bx, by, bz) * 8 + local));
+          ASSERT_EQ(grid.values().voxel(brick, local.x, local.y, local.z),
+                    grid.voxel(origin + VoxelIndex(bx, by, bz) * 8 + local));
         }
       }
   EXPECT_EQ(grid.table()[0], 0);
