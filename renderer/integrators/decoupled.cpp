@@ -9,6 +9,11 @@
 namespace brume {
 namespace {
 
+/// In product sampling the lights choose among segments, of homogeneous media too.
+bool weighs_segments(const Scene& scene) {
+  return scene.render.distance_sampling == DistanceSampling::Product && scene.needs.equiangular;
+}
+
 /// One path. A path is a loop and not a recursion: nothing of a ray's record is needed once its scattered ray is known,
 /// so the arena is rewound at every bounce and the pool does not grow with their number.
 template <int C> Color trace(Ray ray, SampleContext& context) {
@@ -23,9 +28,8 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
     const std::optional<SurfaceHit> surface = close(ray, scene);
 
     // record
-    const MarchSettings settings{
-        scene.step_size, sampler.u1(Decision::MarchOffset, bounce), scene.render.time,
-        scene.render.distance_sampling == DistanceSampling::Product && scene.needs.equiangular};
+    const MarchSettings settings{scene.step_size, sampler.u1(Decision::MarchOffset, bounce), scene.render.time,
+                                 weighs_segments(scene)};
     MarchRecord<C> rec = record_ray<C>(ray, settings, context);
     // distribute
     if (!rec.empty()) distribute(rec, beta, context.arena);

@@ -33,8 +33,8 @@ ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const Ray& ray
   cdf_ = cdf;
   const ArenaScope scope(arena);
   float* weight = arena.alloc_span<float>(n).data();
-  float* cosine = arena.alloc_span<float>(n).data();
-  float* turned = arena.alloc_span<float>(n).data();
+  float* cosine = arena.alloc_span<float>(n + 16).data();
+  float* turned = arena.alloc_span<float>(n + 16).data();
   const ProductTerms terms{.foot = foot_,
                            .off_ray = off_ray,
                            .distance = distance_,
@@ -44,7 +44,7 @@ ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const Ray& ray
                            .flat = pivot.normal != Vec3()};
   if (phase) {
     light_cosines(record.t, record.n, terms, cosine);
-    phase->values(cosine, record.n, turned);
+    phase->values(cosine, record.n + 1, turned);
   }
   product_weights(record.t, record.p, phase ? turned : nullptr, record.n, terms, weight);
   // Few segments are near the light: what holds for the others is mended there.

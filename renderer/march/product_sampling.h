@@ -11,10 +11,10 @@ namespace brume {
 
 /// Product sampling: segment i is drawn with the weight
 ///   w_i = P_i / delta_i * (integral over the segment of 1/r^2) * phase * cosine at the light,
-/// which is scattering times transmittance times what arrives unshadowed; the last two are taken in the middle of the
-/// segment. Inside the segment the distance is equi-angular where 1/r^2 varies most, next to the light, and as in
-/// density sampling elsewhere. What is left to vary is the shadow. Brume's own addition to the techniques of Kulla &
-/// Fajardo 2012, who draw in proportion to one factor or the other.
+/// which is scattering times transmittance times what arrives unshadowed; the phase function is a mean over the edges,
+/// the cosine that of the middle of the segment. Inside the segment the distance is equi-angular where 1/r^2 varies
+/// most, next to the light, and as in density sampling elsewhere. What is left to vary is the shadow. Brume's own
+/// addition to the techniques of Kulla & Fajardo 2012, who draw in proportion to one factor or the other.
 template <int C> class ProductSampling {
  public:
   /// Everything lives in the arena scope that is open.

@@ -17,10 +17,10 @@ using V = hn::Vec<D>;
 
 void LightCosines(const float* t, int n, const ProductTerms& terms, float* cosine) {
   const D d;
-  const V half = hn::Set(d, 0.5f), foot = hn::Set(d, terms.foot), off2 = hn::Set(d, terms.off_ray * terms.off_ray);
+  const V foot = hn::Set(d, terms.foot), off2 = hn::Set(d, terms.off_ray * terms.off_ray);
   const V least = hn::Set(d, 1e-30f);
-  for (int i = 0; i < n; i += static_cast<int>(hn::Lanes(d))) {
-    const V s = hn::NegMulAdd(half, hn::Add(hn::LoadU(d, t + i), hn::LoadU(d, t + i + 1)), foot);  // to the foot
+  for (int i = 0; i <= n; i += static_cast<int>(hn::Lanes(d))) {
+    const V s = hn::Sub(foot, hn::LoadU(d, t + i));
     const V r = hn::Sqrt(hn::Max(hn::MulAdd(s, s, off2), least));
     hn::Store(hn::Div(s, r), d, cosine + i);
   }
@@ -37,7 +37,7 @@ void ProductWeights(const float* t, const float* p, const float* phase, int n, c
     const V s = hn::Sub(middle, foot);
     const V r2 = hn::MulAdd(s, s, near2);
     V w = hn::Div(hn::Load(d, p + i), r2);
-    if (phase) w = hn::Mul(w, hn::Load(d, phase + i));
+    if (phase) w = hn::Mul(w, hn::Mul(half, hn::Add(hn::Load(d, phase + i), hn::LoadU(d, phase + i + 1))));
     if (terms.flat) {
       V at_begin = hn::MulAdd(slope, begin, height), at_end = hn::MulAdd(slope, end, height);
       V at_middle = hn::MulAdd(slope, middle, height);

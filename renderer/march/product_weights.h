@@ -14,13 +14,14 @@ struct ProductTerms {
   bool flat;       ///< has a plane at all
 };
 
-/// cosine[i] between the ray's direction and that of light that comes from the pivot to the middle of segment i.
+/// cosine[i] between the ray's direction and that of light that comes from the pivot to edge i, for i in [0, n].
 /// @param t  [n + 1]; arrays as in step_loops.h
 void light_cosines(const float* t, int n, const ProductTerms& terms, float* cosine);
 
-/// weight[i] = p[i] / (distance^2 + s^2) * phase[i] * (cosine at the light), s and the cosine those of the middle of
-/// segment i; where the plane cuts the segment the cosine is not 0 while some of it is lit.
-/// @param p, phase  [n]; phase may be null
+/// weight[i] = p[i] / (distance^2 + s^2) * (phase[i] + phase[i + 1]) / 2 * (cosine at the light), s and the cosine
+/// those of the middle of segment i; where the plane cuts the segment the cosine is not 0 while some of it is lit. The
+/// phase function is that of the edges because a sharp peak may lie between the middles.
+/// @param p  [n].  @param phase  [n + 1], may be null
 void product_weights(const float* t, const float* p, const float* phase, int n, const ProductTerms& terms,
                      float* weight);
 

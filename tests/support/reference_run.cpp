@@ -288,17 +288,15 @@ bool ReferenceMethod::tracks() const {
 
 std::vector<ReferenceMethod> default_reference_methods() {
   using enum DistanceSampling;
-  return {{"null_scattering"},
-          {"decoupled", Density},
-          {"decoupled", Equiangular},
-          {"decoupled", Mis},
-          {"decoupled", Product}};
+  return {{"null_scattering"}, {"decoupled", Density}, {"decoupled", Equiangular}, {"decoupled", Mis}};
 }
 
 Result<std::vector<ReferenceMethod>> reference_methods(const std::string& key) {
   std::vector<ReferenceMethod> methods;
   std::vector<std::string> known{"all"};
-  for (const ReferenceMethod& m : default_reference_methods()) {
+  auto marched = default_reference_methods();
+  marched.push_back({"decoupled", DistanceSampling::Product});
+  for (const ReferenceMethod& m : marched) {
     if (m.integrator != "decoupled") continue;
     known.push_back("decoupled:" + std::string(name_of(m.mode)));
     if (key == "all" || key == "decoupled" || key == known.back()) methods.push_back(m);
