@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "renderer/core/simd.h"
+#include "renderer/experiments/limit_kernels.h"
 #include "renderer/media/brick_lookup.h"
 #include "renderer/media/vdb_file.h"
 
@@ -81,34 +82,19 @@ const Scene& scene() {
   return the_scene;
 }
 
-/// Clock of the core now: shifts and exclusive ors that wait for each other take a cycle each.
-double cycles_per_ns() {
-  constexpr int kRounds = 100000, kCyclesPerRound = 6;
-  std::uint64_t x = 1;
-  const auto start = std::chrono::steady_clock::now();
-  for (int i = 0; i < kRounds; ++i) {
-    x ^= x << 13;
-    x ^= x >> 7;
-    x ^= x << 17;
-    benchmark::DoNotOptimize(x);
-  }
-  return kRounds * kCyclesPerRound /
-         std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
-}
-
 /// Calls look_up(steps) -> a value to keep, for each ray; reports per sample. Computing the positions is included.
 template <class F> void run(benchmark::State& state, const std::vector<Steps>& rays, const F& look_up) {
   // The fastest pass counts: other processes only ever add time.
   double best_ns = std::numeric_limits<double>::infinity(), best_cycles = best_ns;
   for (auto pass : state) {
     (void)pass;
-    const double clock_before = cycles_per_ns();
+    const double clock_before = cycles_per_nanosecond();
     const auto start = std::chrono::steady_clock::now();
     for (const Steps& ray : rays) benchmark::DoNotOptimize(look_up(ray));
     const double ns = std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() /
                       (static_cast<double>(rays.size()) * kSteps);
     best_ns = std::min(best_ns, ns);
-    best_cycles = std::min(best_cycles, ns * std::max(clock_before, cycles_per_ns()));
+    best_cycles = std::min(best_cycles, ns * std::max(clock_before, cycles_per_nanosecond()));
   }
   state.counters["ns/sample"] = best_ns;
   state.counters["cycles/sample"] = best_cycles;
