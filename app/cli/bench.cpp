@@ -28,18 +28,19 @@ std::string json_of(const std::vector<BenchResult>& results) {
   return list.dump(2) + "\n";
 }
 
-std::vector<std::vector<std::string>> cells_of(const std::vector<BenchResult>& results) {
-  std::vector<std::vector<std::string>> rows{{"what", "measured", "unit", "limit", "ratio", "goal"}};
-  const auto or_blank = [](std::optional<double> v) { return v ? short_number(*v, 3) : std::string(); };
+using Rows = std::vector<std::vector<std::string>>;
+
+Rows cells_of(const std::vector<BenchResult>& results, int digits) {
+  Rows rows{{"name", "value", "unit", "limit", "ratio", "goal"}};
+  const auto or_blank = [&](std::optional<double> v) { return v ? short_number(*v, digits) : std::string(); };
   for (const BenchResult& r : results)
-    rows.push_back(
-        {r.name, short_number(r.value, 3), r.unit, or_blank(r.limit), or_blank(r.ratio()), or_blank(r.goal)});
+    rows.push_back({r.name, or_blank(r.value), r.unit, or_blank(r.limit), or_blank(r.ratio()), or_blank(r.goal)});
   return rows;
 }
 
 std::string markdown_of(const std::vector<BenchResult>& results) {
   std::string text;
-  for (const auto& row : cells_of(results)) {
+  for (const auto& row : cells_of(results, 3)) {
     for (const std::string& cell : row) text += "| " + cell + " ";
     text += text.find('\n') == std::string::npos ? "|\n|---|---:|---|---:|---:|---:|\n" : "|\n";
   }
@@ -47,11 +48,10 @@ std::string markdown_of(const std::vector<BenchResult>& results) {
 }
 
 std::string csv_of(const std::vector<BenchResult>& results) {
-  std::string text = "name,value,unit,limit,ratio,goal\n";
-  const auto or_blank = [](std::optional<double> v) { return v ? short_number(*v, 6) : std::string(); };
-  for (const BenchResult& r : results)
-    text += "\"" + r.name + "\"," + short_number(r.value, 6) + "," + r.unit + "," + or_blank(r.limit) + "," +
-            or_blank(r.ratio()) + "," + or_blank(r.goal) + "\n";
+  std::string text;
+  for (const auto& row : cells_of(results, 6))
+    for (std::size_t i = 0; i < row.size(); ++i)
+      text += (i == 0 ? "\"" + row[i] + "\"" : "," + row[i]) + (i + 1 < row.size() ? "" : "\n");
   return text;
 }
 
@@ -67,7 +67,7 @@ Result<ExitCode> run_bench_command(const BenchCommandOptions& options) {
   if (!results) return results.error();
   const std::string text = options.json       ? json_of(*results)
                            : options.markdown ? markdown_of(*results)
-                                              : format_table(cells_of(*results), "lrlrrr", 0);
+                                              : format_table(cells_of(*results, 3), "lrlrrr", 0);
   if (!options.csv_file.empty())
     if (auto done = write_text_atomically(options.csv_file, csv_of(*results)); !done) return done.error();
   if (auto done = print_result(text); !done) return done.error();

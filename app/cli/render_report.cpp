@@ -5,16 +5,6 @@
 #include "renderer/core/simd.h"
 
 namespace brume {
-namespace {
-
-std::size_t grid_bytes(const Scene& scene) {
-  std::size_t bytes = 0;
-  for (const Medium& medium : scene.media) bytes += medium.shader->memory_bytes();
-  return bytes;
-}
-
-}  // namespace
-
 std::string format_report(const RenderReport& report) {
   const RenderStatistics& s = report.statistics;
   nlohmann::ordered_json json;
@@ -40,7 +30,7 @@ std::string format_report(const RenderReport& report) {
   json["lookups"] = s.rays.march.lookups;
   json["segments"] = s.rays.march.segments;
   json["pool_high_water_bytes"] = s.pool_high_water_bytes;
-  json["grid_bytes"] = grid_bytes(report.scene);
+  json["grid_bytes"] = report.scene.grid_bytes();
 
   json["non_finite_samples"] = s.rays.non_finite;
   json["capped_rays"] = s.rays.march.capped;

@@ -9,11 +9,6 @@
 namespace brume {
 namespace {
 
-/// In product sampling the lights choose among segments, of homogeneous media too.
-bool weighs_segments(const Scene& scene) {
-  return scene.render.distance_sampling == DistanceSampling::Product && scene.needs.equiangular;
-}
-
 /// One path. A path is a loop and not a recursion: nothing of a ray's record is needed once its scattered ray is known,
 /// so the arena is rewound at every bounce and the pool does not grow with their number.
 template <int C> Color trace(Ray ray, SampleContext& context) {
@@ -29,7 +24,7 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
 
     // record
     const MarchSettings settings{scene.step_size, sampler.u1(Decision::MarchOffset, bounce), scene.render.time,
-                                 weighs_segments(scene)};
+                                 scene.needs.split_homogeneous};
     MarchRecord<C> rec = record_ray<C>(ray, settings, context);
     // distribute
     if (!rec.empty()) distribute(rec, beta, context.arena);
@@ -38,6 +33,8 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
       // Scattered rays add no light that they meet: the light samples at every bounce have counted it all.
       radiance = visible_lights(scene, ray, surface, [&](float t) { return to_color(transmittance_to(rec, t)); });
     }
+
+    if (rec.empty() && !surface) return radiance;
 
     // estimate
     const int light_samples = bounce == 0 || scene.render.light_samples ? scene.light_samples : 1;

@@ -7,8 +7,8 @@ namespace brume {
 
 /// Light samples of the radiance that is scattered once along the recorded ray from the scene's lights towards its
 /// origin, for the throughput `beta` at its start. Every one is a shadow ray, left to `shadows`: a point of the light
-/// is drawn first, then a distance by density sampling, by equi-angular sampling about that very point, or by one of
-/// each weighted by MIS.
+/// is drawn first, then a distance by density sampling, by equi-angular sampling about that very point, by one of each
+/// weighted by MIS, or by product sampling about the light's middle (lights without one: by density sampling).
 /// @param record  distributed, with scattered() > 0.  @param bounce  scattered rays so far.  @param samples  of each
 /// light
 template <int C>

@@ -67,7 +67,7 @@ template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context
       }
     });
     if (surface)
-      light_at_surface<C>(*surface, beta * to_color(transmittance(rec)), bounce, 1, samples, context, shadows);
+      light_at_surface<C>(*surface, beta * to_color(transmittance(rec)), bounce, rec.n, samples, context, shadows);
     radiance += shadows.light();
     if (bounce == scene.render.bounces) return radiance;
     if (!scatter(rec, surface, ray, beta, bounce, context)) return radiance;

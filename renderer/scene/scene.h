@@ -47,6 +47,13 @@ struct Scene {
   /// because float coordinates 1e5 away are 0.008 apart.
   Vec3d origin = {};
 
+  /// Of all media's grids.
+  std::size_t grid_bytes() const {
+    std::size_t bytes = 0;
+    for (const Medium& m : media) bytes += m.shader->memory_bytes();
+    return bytes;
+  }
+
   std::vector<std::string> warnings;  ///< one sentence each: what was mended in the input
 };
 
