@@ -6,19 +6,25 @@ namespace brume {
 
 template <int C> void distribute(MarchRecord<C>& rec, Color throughput, Arena& arena) {
   const auto n = static_cast<std::size_t>(rec.n);
-  constexpr std::size_t kOneVector = 16;
+  const auto on_edges = [&] { return arena.alloc_span<float>(n + kWidestVector).data(); };
   rec.weight = channel_weights<C>(throughput);
-  float* cdf = arena.alloc_span<float>(n + kOneVector).data();
-  for (std::size_t c = 0; c < C; ++c) {
-    rec.tau[c] = arena.alloc_span<float>(n + kOneVector).data();
-    rec.transmittance[c] = arena.alloc_span<float>(n + kOneVector).data();
-    rec.length[c] = arena.alloc_span<float>(n).data();
-    attenuate(rec.t, rec.sigma_t[c], rec.n, {rec.tau[c], rec.transmittance[c], rec.length[c]});
-  }
+  float* cdf = on_edges();
   float* p = arena.alloc_span<float>(n).data();
-  ScatteringChannel channels[C];
-  for (std::size_t c = 0; c < C; ++c) channels[c] = {rec.weight.v[c], rec.sigma_s[c], rec.length[c]};
-  running_sum(channels, rec.n, p, cdf);
+  Attenuation out[C];
+  for (std::size_t c = 0; c < C; ++c) {
+    out[c] = {on_edges(), on_edges(), arena.alloc_span<float>(n).data()};
+    rec.tau[c] = out[c].tau, rec.transmittance[c] = out[c].transmittance, rec.length[c] = out[c].length;
+  }
+  if constexpr (C == 1) {
+    attenuate(rec.t, rec.sigma_t[0], rec.sigma_s[0], rec.n, out[0], p, cdf);
+  } else {
+    for (std::size_t c = 0; c < C; ++c) attenuate(rec.t, rec.sigma_t[c], rec.n, out[c]);
+    for (std::size_t i = 0; i < n; ++i) {
+      p[i] = 0;
+      for (std::size_t c = 0; c < C; ++c) p[i] += rec.weight.v[c] * rec.sigma_s[c][i] * rec.length[c][i];
+    }
+    running_sum(p, rec.n, cdf);
+  }
   rec.p = p;
   rec.cdf = cdf;
 }

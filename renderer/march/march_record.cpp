@@ -31,29 +31,35 @@ struct Stretch {
   bool uniform;  // all its media are homogeneous (or there are none): nothing to look up
 };
 
-/// Positions at which a stretch is looked up, one per segment.  @param t  of its edges
-PointBatch lookup_points(const Stretch& stretch, const float* t, const Ray& ray, const MarchSettings& settings,
-                         Arena& arena) {
+/// Writes the edges at which the stretch's segments begin. @return where they are looked up, if they are
+PointBatch write_segments(const Stretch& stretch, const Ray& ray, const MarchSettings& settings, float* t,
+                          Arena& arena) {
+  const StepRow row{stretch.span.begin, stretch.step, settings.offset, stretch.count};
+  if (stretch.uniform) {  // constant shaders are not asked at all
+    write_edges(row, t);
+    return {};
+  }
   const auto n = static_cast<std::size_t>(stretch.count);
   float* x = arena.alloc_span<float>(n).data();
   float* y = arena.alloc_span<float>(n).data();
   float* z = arena.alloc_span<float>(n).data();
-  write_points(ray, t, settings.offset, stretch.count, x, y, z);
+  write_steps(ray, row, t, x, y, z);
+  // The last segment is shorter.
+  const Vec3 last = ray.at(t[n - 1] + settings.offset * (stretch.span.end - t[n - 1]));
+  x[n - 1] = last.x, y[n - 1] = last.y, z[n - 1] = last.z;
   return {x, y, z, stretch.count, settings.time};
 }
 
-/// Writes a stretch's part of the record.
+/// Writes a stretch's part of the record.  @param t  its edges
 template <int C>
 void look_up(const Stretch& stretch, std::span<const Medium> media, const Presence& presence,
              const RecordContents& contents, const Ray& ray, const MarchSettings& settings, const MarchRecord<C>& rec,
-             Arena& arena, MarchCounts& counts) {
+             float* t, Arena& arena, MarchCounts& counts) {
   const ArenaScope scope(arena);
   const float middle = 0.5f * (stretch.span.begin + stretch.span.end);
   const int n = stretch.count, first = stretch.first;
   const auto size = static_cast<std::size_t>(n);
-  // Constant shaders are not asked at all.
-  const PointBatch points =
-      stretch.uniform ? PointBatch{} : lookup_points(stretch, rec.t + first, ray, settings, arena);
+  const PointBatch points = write_segments(stretch, ray, settings, t + first, arena);
   float* const density = arena.alloc_span<float>(size).data();
   bool begun = false;
   for (std::size_t m = 0; m < media.size(); ++m) {
@@ -122,12 +128,11 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
     rec.medium_density = arena.alloc_span<float*>(media.size()).data();
     for (std::size_t m = 0; m < media.size(); ++m) std::fill_n(rec.medium_density[m] = alloc(), n, 0.0f);
   }
-  float* t = arena.alloc_span<float>(n + 16).data();  // loops read whole vectors, up to 16, from t + 1
-  for (const Stretch& s : stretches) write_edges(s.span.begin, s.step, s.count, t + s.first);
-  t[n] = stretches.back().span.end;
+  float* t = arena.alloc_span<float>(n + kWidestVector).data();
   rec.t = t;
   for (const Stretch& stretch : stretches)
-    look_up(stretch, media, presence, contents, ray, settings, rec, arena, counts);
+    look_up(stretch, media, presence, contents, ray, settings, rec, t, arena, counts);
+  t[n] = stretches.back().span.end;
   return rec;
 }
 

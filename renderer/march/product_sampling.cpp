@@ -29,12 +29,12 @@ ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const Ray& ray
   distance_ = std::max(std::hypot(off_ray, pivot.radius), 1e-7f * reach);
 
   const auto n = static_cast<std::size_t>(record.n);
-  float* cdf = arena.alloc_span<float>(n + 16).data();
+  float* cdf = arena.alloc_span<float>(n + kWidestVector).data();
   cdf_ = cdf;
   const ArenaScope scope(arena);
   float* weight = arena.alloc_span<float>(n).data();
-  float* cosine = arena.alloc_span<float>(n + 16).data();
-  float* turned = arena.alloc_span<float>(n + 16).data();
+  float* cosine = arena.alloc_span<float>(n + kWidestVector).data();
+  float* turned = arena.alloc_span<float>(n + kWidestVector).data();
   const ProductTerms terms{.foot = foot_,
                            .off_ray = off_ray,
                            .distance = distance_,

@@ -6,13 +6,15 @@
 
 #include <hwy/highway.h>
 
+#include "renderer/march/step_loops.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace brume::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<float, 16>;
+using D = hn::CappedTag<float, kWidestVector>;
 using V = hn::Vec<D>;
 
 void LightCosines(const float* t, int n, const ProductTerms& terms, float* cosine) {

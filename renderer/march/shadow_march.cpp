@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "renderer/march/step_loops.h"
+
 namespace brume {
 namespace {
 
 // What a medium is asked for at once: the look-ups of short shadow rays are done together.
-constexpr int kPoints = 256, kRows = 32, kVector = 16;
+constexpr int kPoints = 256, kRows = 32;
 
 /// Optical amounts (integrals of the density) of many rays in one medium.
 class Amounts {
@@ -20,7 +22,7 @@ class Amounts {
         counts_(counts),
         amounts_(amounts),
         rows_(arena.alloc_span<ShadowRow>(kRows)) {
-    for (float** array : {&x_, &y_, &z_, &density_}) *array = arena.alloc_span<float>(kPoints + kVector).data();
+    for (float** array : {&x_, &y_, &z_, &density_}) *array = arena.alloc_span<float>(kPoints + kWidestVector).data();
   }
 
   void add(int ray, const Interval& span) {

@@ -12,7 +12,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<float, 16>;
+using D = hn::CappedTag<float, kWidestVector>;
 using DI = hn::RebindToSigned<D>;
 using V = hn::Vec<D>;
 
@@ -39,41 +39,23 @@ struct Line {
   }
 };
 
-void WritePointsOfSegments(const Ray& ray, const float* t, float offset, int n, float* x, float* y, float* z) {
+void WriteSteps(const Ray& ray, const StepRow& row, float* t, float* x, float* y, float* z) {
   const D d;
   const Line line(ray);
-  const V at = hn::Set(d, offset);
-  for (int i = 0; i < n; i += lanes()) {
-    const V begin = hn::LoadU(d, t + i), end = hn::LoadU(d, t + i + 1);
-    line.store(hn::MulAdd(at, hn::Sub(end, begin), begin), x + i, y + i, z + i);
-  }
-}
-
-void WritePointsOfRow(const Ray& ray, const PointRow& row, float* x, float* y, float* z) {
-  const D d;
-  const Line line(ray);
-  const V first = hn::Set(d, row.first), step = hn::Set(d, row.step);
+  const V begin = hn::Set(d, row.begin), step = hn::Set(d, row.step), inside = hn::Set(d, row.offset * row.step);
   for (int i = 0; i < row.n; i += lanes()) {
     const V number = hn::Add(iota(), hn::Set(d, static_cast<float>(i)));
-    line.store(hn::MulAdd(number, step, first), x + i, y + i, z + i);
+    const V edge = hn::MulAdd(number, step, begin);
+    hn::StoreU(edge, d, t + i);
+    line.store(hn::Add(edge, inside), x + i, y + i, z + i);
   }
 }
 
-float Sum(const float* values, int n) {
+void WriteEdges(const StepRow& row, float* t) {
   const D d;
-  V total = hn::Zero(d);
-  int i = 0;
-  for (; i + lanes() <= n; i += lanes()) total = hn::Add(total, hn::LoadU(d, values + i));
-  float all = hn::GetLane(hn::SumOfLanes(d, total));
-  for (; i < n; ++i) all += values[i];
-  return all;
-}
-
-void WriteEdges(float begin, float step, int n, float* t) {
-  const D d;
-  const V first = hn::Set(d, begin), all = hn::Set(d, step);
-  for (int i = 0; i < n; i += lanes())
-    hn::StoreU(hn::MulAdd(hn::Add(iota(), hn::Set(d, static_cast<float>(i))), all, first), d, t + i);
+  const V begin = hn::Set(d, row.begin), step = hn::Set(d, row.step);
+  for (int i = 0; i < row.n; i += lanes())
+    hn::StoreU(hn::MulAdd(hn::Add(iota(), hn::Set(d, static_cast<float>(i))), step, begin), d, t + i);
 }
 
 /// Calls f(i) -> V for whole vectors and stores them; of the last one, what is left.
@@ -189,52 +171,74 @@ HWY_INLINE V reciprocal(V x) {
   return hn::Mul(guess, hn::NegMulAdd(x, guess, hn::Set(D(), 2.0f)));
 }
 
-template <class Carry>
-HWY_INLINE void attenuate_with(const float* t, const float* sigma_t, int n, const Attenuation& out) {
+/// Integral of exp(-sigma s) over segments of optical depths x, from what is left of the light at both ends.
+HWY_INLINE V integral(V begin, V end, V x, V delta, V sigma) {
+  const D d;
+  // In thin segments, where begin - end would cancel, their mean times tanh(x/2) / (x/2) as its series, whose next term
+  // is below 6e-8.
+  const V xx = hn::Mul(x, x);
+  V series = hn::MulAdd(xx, hn::Set(d, -17.0f / 20160), hn::Set(d, 1.0f / 120));
+  series = hn::MulAdd(xx, series, hn::Set(d, -1.0f / 12));
+  const V mean = hn::Mul(hn::Mul(delta, hn::Set(d, 0.5f)), hn::Add(begin, end));
+  const V thin = hn::MulAdd(hn::Mul(mean, xx), series, mean);
+  const auto is_thin = hn::Lt(x, hn::Set(d, 0.4f));
+  if (HWY_LIKELY(hn::AllTrue(d, is_thin))) return thin;
+  return hn::IfThenElse(is_thin, thin, hn::Mul(hn::Sub(begin, end), reciprocal(sigma)));
+}
+
+// One loop for each step and not one for all: a running sum is a long chain of operations, and with little else in the
+// loop the processor works on several vectors' chains at once.
+
+template <class Carry> HWY_INLINE void sum_optical_depth(const float* t, const float* sigma_t, int n, float* tau) {
   const D d;
   const Scan scan;
   Carry before;
-  const V one = hn::Set(d, 1.0f);
-  V begin_last = one;  // transmittance at the end of the vector before
-  out.tau[0] = 0;
-  out.transmittance[0] = 1;
+  tau[0] = 0;
   for (int i = 0; i < n; i += lanes()) {
-    const V delta = hn::Sub(hn::LoadU(d, t + i + 1), hn::LoadU(d, t + i)), sigma = hn::Load(d, sigma_t + i);
-    const V x = hn::Mul(sigma, delta);
-    const V within = scan.sums(x);
-    const V depth = before.plus(within);
+    const V delta = hn::Sub(hn::LoadU(d, t + i + 1), hn::LoadU(d, t + i));
+    const V within = scan.sums(hn::Mul(hn::Load(d, sigma_t + i), delta));
+    hn::StoreU(before.plus(within), d, tau + i + 1);
     before.add(scan.last(within));
-    hn::StoreU(depth, d, out.tau + i + 1);
-
-    const V end = exp_minus(depth), begin = scan.by1(end, begin_last);
-    begin_last = scan.last(end);
-    hn::StoreU(end, d, out.transmittance + i + 1);
-    // (T_begin - T_end) / sigma_t; in thin segments, where the difference would cancel, T_begin (1 - exp(-x)) / x as
-    // its series, whose next term is below 1e-9.
-    V series = hn::Set(d, 1.0f / 120);
-    series = hn::NegMulAdd(series, x, hn::Set(d, 1.0f / 24));
-    series = hn::NegMulAdd(series, x, hn::Set(d, 1.0f / 6));
-    series = hn::NegMulAdd(series, x, hn::Set(d, 0.5f));
-    series = hn::NegMulAdd(series, x, one);
-    const V thin = hn::Mul(hn::Mul(begin, delta), series);
-    const V thick = hn::Mul(hn::Sub(begin, end), reciprocal(sigma));
-    hn::Store(hn::IfThenElse(hn::Lt(x, hn::Set(d, 0.05f)), thin, thick), d, out.length + i);
   }
 }
 
-void Attenuate(const float* t, const float* sigma_t, int n, const Attenuation& out) {
-  n <= kShort ? attenuate_with<ShortCarry>(t, sigma_t, n, out) : attenuate_with<LongCarry>(t, sigma_t, n, out);
+HWY_INLINE void attenuate_edges(const float* tau, int n, float* transmittance) {
+  const D d;
+  transmittance[0] = 1;
+  for (int i = 0; i < n; i += lanes()) hn::StoreU(exp_minus(hn::LoadU(d, tau + i + 1)), d, transmittance + i + 1);
 }
 
-/// Of p(i), a vector.
-template <class Carry, class P> HWY_INLINE void running_sum_with(int n, float* cdf, const P& p) {
+/// Calls each(i, length) for every vector of segments.
+template <class Each>
+HWY_INLINE void integrate(const float* t, const float* sigma_t, int n, const Attenuation& out, const Each& each) {
+  const D d;
+  const float* const transmittance = out.transmittance;
+  float* const lengths = out.length;
+  for (int i = 0; i < n; i += lanes()) {
+    const V delta = hn::Sub(hn::LoadU(d, t + i + 1), hn::LoadU(d, t + i)), sigma = hn::Load(d, sigma_t + i);
+    const V begin = hn::LoadU(d, transmittance + i), end = hn::LoadU(d, transmittance + i + 1);
+    const V length = integral(begin, end, hn::Mul(sigma, delta), delta, sigma);
+    hn::Store(length, d, lengths + i);
+    each(i, length);
+  }
+}
+
+template <class Each>
+HWY_INLINE void attenuate_with(const float* t, const float* sigma_t, int n, const Attenuation& out, const Each& each) {
+  n <= kShort ? sum_optical_depth<ShortCarry>(t, sigma_t, n, out.tau)
+              : sum_optical_depth<LongCarry>(t, sigma_t, n, out.tau);
+  attenuate_edges(out.tau, n, out.transmittance);
+  integrate(t, sigma_t, n, out, each);
+}
+
+template <class Carry> HWY_INLINE void sum_up(const float* p, int n, float* cdf) {
   const D d;
   const Scan scan;
   Carry before;
   V reached = hn::Zero(d);  // all lanes
   cdf[0] = 0;
   for (int i = 0; i < n; i += lanes()) {
-    const V v = p(i);
+    const V v = hn::Load(d, p + i);
     const V within = scan.sums(v);
     V sums = before.plus(within);
     before.add(scan.last(within));
@@ -249,23 +253,19 @@ template <class Carry, class P> HWY_INLINE void running_sum_with(int n, float* c
   }
 }
 
-template <class P> HWY_INLINE void running_sum_of(int n, float* cdf, const P& p) {
-  n <= kShort ? running_sum_with<ShortCarry>(n, cdf, p) : running_sum_with<LongCarry>(n, cdf, p);
+void Attenuate(const float* t, const float* sigma_t, int n, const Attenuation& out) {
+  attenuate_with(t, sigma_t, n, out, [](int, V) HWY_ATTR {});
+}
+
+void AttenuateAndSum(const float* t, const float* sigma_t, const float* sigma_s, int n, const Attenuation& out,
+                     float* p, float* cdf) {
+  attenuate_with(t, sigma_t, n, out,
+                 [&](int i, V length) HWY_ATTR { hn::Store(hn::Mul(hn::Load(D(), sigma_s + i), length), D(), p + i); });
+  n <= kShort ? sum_up<ShortCarry>(p, n, cdf) : sum_up<LongCarry>(p, n, cdf);
 }
 
 void RunningSum(const float* p, int n, float* cdf) {
-  running_sum_of(n, cdf, [&](int i) HWY_ATTR { return hn::Load(D(), p + i); });
-}
-
-void RunningSumOfChannels(std::span<const ScatteringChannel> channels, int n, float* p, float* cdf) {
-  running_sum_of(n, cdf, [&](int i) HWY_ATTR {
-    const D d;
-    V sum = hn::Zero(d);
-    for (const ScatteringChannel& c : channels)
-      sum = hn::MulAdd(hn::Mul(hn::Set(d, c.weight), hn::Load(d, c.sigma_s + i)), hn::Load(d, c.length + i), sum);
-    hn::Store(sum, d, p + i);
-    return sum;
-  });
+  n <= kShort ? sum_up<ShortCarry>(p, n, cdf) : sum_up<LongCarry>(p, n, cdf);
 }
 
 }  // namespace
@@ -275,24 +275,18 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace brume {
 
-HWY_EXPORT(WritePointsOfSegments);
-HWY_EXPORT(WritePointsOfRow);
-HWY_EXPORT(Sum);
+HWY_EXPORT(WriteSteps);
 HWY_EXPORT(WriteEdges);
 HWY_EXPORT(SetScaled);
 HWY_EXPORT(AddScaled);
 HWY_EXPORT(Attenuate);
+HWY_EXPORT(AttenuateAndSum);
 HWY_EXPORT(RunningSum);
-HWY_EXPORT(RunningSumOfChannels);
 
-void write_points(const Ray& ray, const float* t, float offset, int n, float* x, float* y, float* z) {
-  HWY_DYNAMIC_DISPATCH(WritePointsOfSegments)(ray, t, offset, n, x, y, z);
+void write_edges(const StepRow& row, float* t) { HWY_DYNAMIC_DISPATCH(WriteEdges)(row, t); }
+void write_steps(const Ray& ray, const StepRow& row, float* t, float* x, float* y, float* z) {
+  HWY_DYNAMIC_DISPATCH(WriteSteps)(ray, row, t, x, y, z);
 }
-void write_points(const Ray& ray, const PointRow& row, float* x, float* y, float* z) {
-  HWY_DYNAMIC_DISPATCH(WritePointsOfRow)(ray, row, x, y, z);
-}
-float sum(const float* values, int n) { return HWY_DYNAMIC_DISPATCH(Sum)(values, n); }
-void write_edges(float begin, float step, int n, float* t) { HWY_DYNAMIC_DISPATCH(WriteEdges)(begin, step, n, t); }
 void set_scaled(const float* values, float factor, int n, float* out) {
   HWY_DYNAMIC_DISPATCH(SetScaled)(values, factor, n, out);
 }
@@ -302,10 +296,11 @@ void add_scaled(const float* values, float factor, int n, float* out) {
 void attenuate(const float* t, const float* sigma_t, int n, const Attenuation& out) {
   HWY_DYNAMIC_DISPATCH(Attenuate)(t, sigma_t, n, out);
 }
-void running_sum(const float* p, int n, float* cdf) { HWY_DYNAMIC_DISPATCH(RunningSum)(p, n, cdf); }
-void running_sum(std::span<const ScatteringChannel> channels, int n, float* p, float* cdf) {
-  HWY_DYNAMIC_DISPATCH(RunningSumOfChannels)(channels, n, p, cdf);
+void attenuate(const float* t, const float* sigma_t, const float* sigma_s, int n, const Attenuation& out, float* p,
+               float* cdf) {
+  HWY_DYNAMIC_DISPATCH(AttenuateAndSum)(t, sigma_t, sigma_s, n, out, p, cdf);
 }
+void running_sum(const float* p, int n, float* cdf) { HWY_DYNAMIC_DISPATCH(RunningSum)(p, n, cdf); }
 
 }  // namespace brume
 #endif  // HWY_ONCE
