@@ -24,7 +24,7 @@ constexpr std::size_t bytes_per_brick(BrickLayout layout) {
 }
 
 /// Bricks of one layout. Half floats hold a value over unit(), a power of two that makes the most of their range:
-/// values that half floats can hold stay exact, others are off by 2^-12 of themselves at most, or of 2^-28 times the
+/// values that half floats can hold stay exact, others are off by 2^-11 of themselves at most, or by 2^-28 times the
 /// largest.
 class BrickValues {
  public:

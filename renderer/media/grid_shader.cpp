@@ -142,7 +142,7 @@ ShaderType vdb_shader_type() {
            .in("K")
            .says("Kelvin added wherever the temperature grid is not 0."),
        param::choice("precision", "Voxels", "half",
-                     {{"half", "Half", "half floats: off by a four thousandth at most, and twice as fast"},
+                     {{"half", "Half", "half floats: off by a two thousandth at most, and twice as fast"},
                       {"full", "Full", "floats, for reference work"}})
            .says("How exactly the values of the grids are kept.")},
       true,
