@@ -1,5 +1,7 @@
 #include "renderer/integrators/marched_shadows.h"
 
+#include <cmath>
+
 namespace brume {
 
 template <int C>
@@ -24,6 +26,7 @@ template <int C> void MarchedShadows<C>::play_roulette() {
   const int waiting = rays_.n;
   float sum = 0;
   for (const Color& c : carried_.first(static_cast<std::size_t>(waiting))) sum += luminance(c);
+  if (!std::isfinite(sum)) return;
   const float faint = kFaint * sum / static_cast<float>(waiting);
   rays_.n = 0;
   for (int i = 0; i < waiting; ++i) {
@@ -43,8 +46,8 @@ template <int C> void MarchedShadows<C>::play_roulette() {
 }
 
 template <int C> void MarchedShadows<C>::march() {
-  play_roulette();
   const Scene& scene = context_.scene;
+  if (scene.render.russian_roulette) play_roulette();
   context_.statistics.shadow_rays += static_cast<std::uint64_t>(rays_.n);
   shadow_transmittances<C>(scene.media, rays_, scene.shadow_step_size, scene.render.time, context_.arena,
                            context_.statistics.march, transmittances_.data());

@@ -34,6 +34,8 @@ std::vector<Param> sampling_params() {
 
 namespace {
 
+Param light_samples() { return param::integer("light_samples", "Light samples", 1).between(1, 256).slider(1, 16); }
+
 Param light_selection() {
   return param::choice(
              "light_selection", "Light selection", "all",
@@ -45,17 +47,11 @@ Param light_selection() {
 }  // namespace
 
 std::vector<Param> light_params() {
-  return {param::integer("light_samples", "Light samples", 1)
-              .between(1, 256)
-              .slider(1, 16)
-              .says("Shadow rays for each light wherever light is sampled."),
-          light_selection()};
+  return {light_samples().says("Shadow rays for each light wherever light is sampled."), light_selection()};
 }
 
 std::vector<Param> balanced_light_params() {
-  return {param::integer("light_samples", "Light samples", 1)
-              .between(1, 256)
-              .slider(1, 16)
+  return {light_samples()
               .auto_by_default("on the camera's rays as many as balance the cost of their march, on scattered rays one")
               .says("Shadow rays per ray and light; in MIS half go to each technique, and of an odd number one "
                     "alternates between passes."),
@@ -85,7 +81,9 @@ std::vector<Param> path_params() {
           .says("Scattered rays traced per camera ray; 0 is single scattering, B gives orders 1 to B + 1 of the light "
                 "of lamps."),
       param::flag("russian_roulette", "Russian roulette", true)
-          .says("Ends faint paths early without changing the mean, from the third bounce on.")};
+          .says("Ends faint paths early, from the third bounce on, and leaves out shadow rays to lights too faint to "
+                "see, "
+                "without changing the mean.")};
 }
 
 std::vector<Param> random_params() {
