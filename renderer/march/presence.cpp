@@ -21,6 +21,7 @@ Presence find_presence(std::span<const Medium> media, const Ray& ray, Arena& are
   std::size_t e = 0;
   for (const auto& intervals : presence.of_medium)
     for (const Interval i : intervals) presence.edges[e++] = i.begin, presence.edges[e++] = i.end;
+  if (edge_count <= 2) return presence;
   std::sort(presence.edges.begin(), presence.edges.end());
   const auto end = std::unique(presence.edges.begin(), presence.edges.end());
   presence.edges = presence.edges.first(static_cast<std::size_t>(end - presence.edges.begin()));

@@ -1,6 +1,5 @@
 #include "renderer/media/brick_lookup.h"
 
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -48,7 +47,7 @@ class Addresses {
   HWY_INLINE Addresses(const BrickGrid& grid, const Affine& local_from_scene) : map_(local_from_scene) {
     const VoxelIndex bricks = grid.table_extent();
     for (int axis = 0; axis < 3; ++axis)
-      last_[axis] = std::nextafter(static_cast<float>(bricks[axis] * BrickGrid::kCells), 0.0f);
+      last_[axis] = static_cast<float>(bricks[axis] * BrickGrid::kCells) * 0x1.fffffep-1f;  // the float below
     row_y_ = bricks.y, row_z_ = bricks.z;
     // As below: what the bits of 2^23 add up to in the place, to be taken away again; modulo 2^32. 1: see table().
     const auto ny = static_cast<std::uint32_t>(bricks.y), nz = static_cast<std::uint32_t>(bricks.z);

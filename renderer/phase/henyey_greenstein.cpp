@@ -4,26 +4,22 @@
 
 namespace brume {
 
-HenyeyGreenstein::HenyeyGreenstein(double g) : g_(std::clamp(g, -0.9999, 0.9999)) {}
-
-// In double, because 1 - |g| is small where it matters most.
+// 1 - |g| is small where it matters most: what is made of it is made in double.
+HenyeyGreenstein::HenyeyGreenstein(double g) : g_(std::clamp(g, -0.9999, 0.9999)) {
+  const double a = std::abs(g_);
+  least_ = static_cast<float>((1 - a) * (1 - a));
+  slope_ = static_cast<float>(2 * a);
+  scale_ = kInv4Pi * static_cast<float>((1 - a) * (1 + a));
+}
 
 float HenyeyGreenstein::value(float cos_theta) const {
-  const double c = static_cast<double>(std::clamp(cos_theta, -1.0f, 1.0f));
   // 1 + g^2 - 2 g c without cancellation where it is smallest: (1 - |g|)^2 + 2 |g| (1 - c sign g).
-  const double a = std::abs(g_);
-  const double denominator = (1 - a) * (1 - a) + 2 * a * (1 - (g_ < 0 ? -c : c));
-  return kInv4Pi * static_cast<float>((1 - a) * (1 + a) / (denominator * std::sqrt(denominator)));
+  const float denominator = least_ + slope_ * std::clamp(g_ < 0 ? 1 + cos_theta : 1 - cos_theta, 0.0f, 2.0f);
+  return scale_ / (denominator * std::sqrt(denominator));
 }
 
 void HenyeyGreenstein::values(const float* cos_theta, int n, float* out) const {
-  const double a = std::abs(g_);
-  const auto least = static_cast<float>((1 - a) * (1 - a)), slope = static_cast<float>(2 * a),
-             scale = kInv4Pi * static_cast<float>((1 - a) * (1 + a)), sign = g_ < 0 ? -1.0f : 1.0f;
-  for (int i = 0; i < n; ++i) {
-    const float denominator = least + slope * std::max(0.0f, 1 - sign * cos_theta[i]);
-    out[i] = scale / (denominator * std::sqrt(denominator));
-  }
+  for (int i = 0; i < n; ++i) out[i] = HenyeyGreenstein::value(cos_theta[i]);
 }
 
 PhaseSample HenyeyGreenstein::sample(Vec3 direction, Vec2 u) const {

@@ -17,6 +17,7 @@ class HenyeyGreenstein final : public PhaseFunction {
 
  private:
   double g_;
+  float least_, slope_, scale_;  // p(c) = scale / (least + slope (1 - c sign g))^(3/2)
 };
 
 }  // namespace brume

@@ -56,20 +56,22 @@ std::uint32_t sobol_second(std::uint32_t index) {
   return index;
 }
 
-struct Bits2 {
-  std::uint32_t x, y;
-};
-
 /// Point number `index` of a (0,2)-sequence whose order and digits are scrambled by `key`: Burley 2020, section 4
 /// (padding: every pair of dimensions has its own shuffle).
-Bits2 scrambled_sobol(std::uint32_t index, std::uint64_t key) {
-  const auto shuffle = static_cast<std::uint32_t>(key);
-  const std::uint64_t more = mix(key);
-  const std::uint32_t i = owen_scramble(index, shuffle);
+class PaddedPoint {
+ public:
+  PaddedPoint(std::uint32_t index, std::uint64_t key)
+      : index_(owen_scramble(index, static_cast<std::uint32_t>(key))), key_(mix(key)) {}
   // The first Sobol' dimension is the bit-reversed index, so one of the two reversals cancels.
-  const std::uint32_t x = reverse_bits(laine_karras(i, static_cast<std::uint32_t>(more)));
-  return {x, reverse_bits(laine_karras(sobol_second(i), static_cast<std::uint32_t>(more >> 32)))};
-}
+  std::uint32_t x() const { return reverse_bits(laine_karras(index_, static_cast<std::uint32_t>(key_))); }
+  std::uint32_t y() const {
+    return reverse_bits(laine_karras(sobol_second(index_), static_cast<std::uint32_t>(key_ >> 32)));
+  }
+
+ private:
+  std::uint32_t index_;
+  std::uint64_t key_;
+};
 
 using Matrix = std::array<std::uint32_t, 32>;  // column j: what bit j of the index adds to the digits
 
@@ -144,11 +146,11 @@ std::uint64_t Sampler::dimension_key(Decision decision, int bounce, int index) c
 }
 
 float Sampler::u1(Decision decision, int bounce, int index) const {
-  if (kind_ == SamplerKind::Sobol)
-    if (const int d = joint_dimension(decision, bounce, index); d >= 0)
-      return to_unit(reverse_bits(laine_karras(point_[static_cast<std::size_t>(d)],
-                                               static_cast<std::uint32_t>(dimension_key(decision, bounce, index)))));
-  return u2(decision, bounce, index).x;
+  const std::uint64_t key = dimension_key(decision, bounce, index);
+  if (kind_ == SamplerKind::Independent) return to_unit(static_cast<std::uint32_t>(combine(key, sample_)));
+  if (const int d = joint_dimension(decision, bounce, index); d >= 0)
+    return to_unit(reverse_bits(laine_karras(point_[static_cast<std::size_t>(d)], static_cast<std::uint32_t>(key))));
+  return to_unit(PaddedPoint(sample_, key).x());
 }
 
 Vec2 Sampler::u2(Decision decision, int bounce, int index) const {
@@ -162,8 +164,8 @@ Vec2 Sampler::u2(Decision decision, int bounce, int index) const {
     return {to_unit(reverse_bits(laine_karras(point_[x], static_cast<std::uint32_t>(key)))),
             to_unit(reverse_bits(laine_karras(point_[x + 1], static_cast<std::uint32_t>(key >> 32))))};
   }
-  const Bits2 p = scrambled_sobol(sample_, key);
-  return {to_unit(p.x), to_unit(p.y)};
+  const PaddedPoint p(sample_, key);
+  return {to_unit(p.x()), to_unit(p.y())};
 }
 
 float Sampler::per_pixel(Decision decision) const {
