@@ -116,16 +116,19 @@ void Distribute(const float* density, int n, float sigma_t, float sigma_s, float
   const D d;
   const auto last = hn::IndicesFromVec(d, hn::Set(DI(), static_cast<int>(hn::Lanes(d)) - 1));
   const V tau_of = hn::Set(d, sigma_t * delta), scattered = hn::Set(d, sigma_s * delta);
+  const int lanes = static_cast<int>(hn::Lanes(d));
   V depth = hn::Zero(d), sum = hn::Zero(d);
-  for (int i = 0; i < n; i += static_cast<int>(hn::Lanes(d))) {
-    const V rho = hn::LoadU(d, density + i), x = hn::Mul(rho, tau_of);
-    const V tau = hn::Add(depth, running_sums(x));
-    depth = hn::TableLookupLanes(tau, last);
-    const V t = exp_minus(hn::Sub(tau, x));
-    hn::StoreU(t, d, transmittance + i);
-    const V c = hn::Add(sum, running_sums(hn::Mul(hn::Mul(rho, scattered), t)));
-    sum = hn::TableLookupLanes(c, last);
-    hn::StoreU(c, d, cdf + i);
+  for (int i = 0; i < n; i += lanes) {
+    const V x = hn::Mul(hn::LoadU(d, density + i), tau_of), within = running_sums(x);
+    hn::StoreU(exp_minus(hn::Add(depth, hn::Sub(within, x))), d, transmittance + i);
+    depth = hn::Add(depth, hn::TableLookupLanes(within, last));
+  }
+  // A loop of its own, so that more vectors are worked on at once.
+  for (int i = 0; i < n; i += lanes) {
+    const V t = hn::LoadU(d, transmittance + i);
+    const V within = running_sums(hn::Mul(hn::Mul(hn::LoadU(d, density + i), scattered), t));
+    hn::StoreU(hn::Add(sum, within), d, cdf + i);
+    sum = hn::Add(sum, hn::TableLookupLanes(within, last));
   }
 }
 
