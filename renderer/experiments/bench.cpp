@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 #include <thread>
 
 #include "renderer/core/simd.h"
@@ -293,6 +294,26 @@ class Bench {
     };
     results_.push_back({"first picture of an edit, 1280x720", median(coarse), "ms", {}, 33});
     results_.push_back({"full resolution of an edit, 1280x720", median(full), "ms", {}, 350});
+
+    // A camera that a hand moves: an edit for each of the display's pictures, whatever the renderer does.
+    Node orbiting = description;
+    std::set<std::uint64_t> seen;
+    const auto start = Clock::now();
+    constexpr int kEdits = 60;
+    for (int k = 0; k < kEdits; ++k) {
+      const double angle = 0.02 * k;
+      const auto position = Numbers{4 * std::sin(angle), -4 * std::cos(angle), 2};
+      if (auto set = set_by_path(orbiting, "camera.position", format_value(position)); !set) return set.error();
+      auto scene = commit(orbiting, cache_, {.generation = ++generation});
+      if (!scene) return scene.error();
+      engine.submit({{*scene, 1280, 720}});
+      while (seconds_since(start) < (k + 1) / 60.0) {
+        if (const auto p = engine.picture(); p && p->generation + kEdits > generation) seen.insert(p->generation);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    }
+    const double between = 1e3 * seconds_since(start) / static_cast<double>(seen.size());
+    results_.push_back({"from picture to picture in an orbit, 1280x720", between, "ms", {}, 40});
     return {};
   }
 

@@ -9,6 +9,7 @@
 
 #include "renderer/core/bounds.h"
 #include "renderer/core/error.h"
+#include "renderer/core/large_array.h"
 #include "renderer/media/brick_values.h"
 #include "renderer/media/load_options.h"
 
@@ -38,7 +39,7 @@ struct TileBlock {
 /// What a grid is built from. Everything not listed is 0. Where blocks overlap, leaves win over tiles and later ones
 /// over earlier ones.
 struct VoxelBlocks {
-  std::vector<LeafBlock> leaves;
+  LargeArray<LeafBlock> leaves;
   std::vector<TileBlock> tiles;
 };
 

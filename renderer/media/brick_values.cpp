@@ -34,12 +34,12 @@ const char* to_string(BrickLayout layout) {
 BrickValues::BrickValues(BrickLayout layout, std::size_t bricks, float largest) : layout_(layout), bricks_(bricks) {
   // The largest value becomes one in [2^14, 2^15): rounding cannot take it out of the range of a half float.
   if (layout != BrickLayout::Full && largest > 0) unit_ = std::ldexp(1.0f, std::max(std::ilogb(largest) - 14, -125));
-  data_.reset(static_cast<std::byte*>(::operator new(bytes() + 64, std::align_val_t(64))));
-  std::memset(data_.get(), 0, bytes_per_brick(layout));
+  data_.resize(bytes() + 64);
+  std::memset(data_.data(), 0, bytes_per_brick(layout));
 }
 
 float BrickValues::store(std::size_t brick, const float* voxels) {
-  std::byte* const to = data_.get() + brick * bytes_per_brick(layout_);
+  std::byte* const to = data_.data() + brick * bytes_per_brick(layout_);
   if (layout_ == BrickLayout::Full) {
     std::memcpy(to, voxels, kVoxels * sizeof(float));
     return *std::max_element(voxels, voxels + kVoxels);
@@ -65,7 +65,7 @@ float BrickValues::store(std::size_t brick, const float* voxels) {
 }
 
 float BrickValues::voxel(std::size_t brick, int x, int y, int z) const {
-  const std::byte* const from = data_.get() + brick * bytes_per_brick(layout_);
+  const std::byte* const from = data_.data() + brick * bytes_per_brick(layout_);
   if (layout_ == BrickLayout::Full) {
     float value;
     std::memcpy(&value, from + number(x, y, z) * 4, sizeof(value));

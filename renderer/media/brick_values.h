@@ -3,8 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <new>
+
+#include "renderer/core/large_array.h"
 
 namespace brume {
 
@@ -49,16 +49,13 @@ class BrickValues {
   float unit() const { return unit_; }
 
   /// 64-byte aligned; of type float or std::uint16_t, and readable 64 bytes behind the end.
-  const std::byte* data() const { return data_.get(); }
+  const std::byte* data() const { return data_.data(); }
 
  private:
-  struct Free {
-    void operator()(std::byte* p) const { ::operator delete(p, std::align_val_t(64)); }
-  };
   BrickLayout layout_ = BrickLayout::Full;
   std::size_t bricks_ = 0;
   float unit_ = 1;
-  std::unique_ptr<std::byte[], Free> data_;
+  LargeArray<std::byte> data_;
 };
 
 }  // namespace brume

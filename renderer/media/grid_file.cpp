@@ -60,12 +60,12 @@ InputFile::InputFile(const std::string& path) : path_(path) {
   size_ = static_cast<std::uint64_t>(end);
 }
 
-std::vector<std::byte> InputFile::read(std::uint64_t offset, std::uint64_t bytes, const LoadOptions& options) {
+LargeArray<std::byte> InputFile::read(std::uint64_t offset, std::uint64_t bytes, const LoadOptions& options) {
   constexpr std::uint64_t kPiece = 16 << 20;
   offset = std::min(offset, size_);
   bytes = std::min(bytes, size_ - offset);
   if (auto enough = check_memory(bytes); !enough) refuse(in_quotes(path_) + ": " + enough.error().message);
-  std::vector<std::byte> data(bytes);
+  LargeArray<std::byte> data(bytes);
   stream_.seekg(static_cast<std::streamoff>(offset));
   for (std::uint64_t done = 0; done < bytes;) {
     stop_if_cancelled(options);

@@ -47,7 +47,7 @@ class InputFile {
 
   std::uint64_t size() const { return size_; }
   /// `bytes` bytes from `offset` on, fewer at the end of the file. Throws FileProblem; can be cancelled.
-  std::vector<std::byte> read(std::uint64_t offset, std::uint64_t bytes, const LoadOptions& options = {});
+  LargeArray<std::byte> read(std::uint64_t offset, std::uint64_t bytes, const LoadOptions& options = {});
 
  private:
   std::string path_;

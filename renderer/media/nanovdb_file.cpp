@@ -146,7 +146,7 @@ std::vector<Entry> read_entries(InputFile& file) {
   constexpr std::uint64_t kHeader = 16, kLongestDescriptions = 16 << 20;
   std::vector<Entry> entries;
   for (std::uint64_t at = 0; at < file.size();) {
-    const std::vector<std::byte> data = file.read(at, kLongestDescriptions);
+    const auto data = file.read(at, kLongestDescriptions);
     Cursor c(data);
     if (data.size() < kHeader || (c.get<std::uint64_t>() & 0xFFFFFFFFFFFFFFULL) != kMagicStart)
       throw Damaged{at == 0 ? "it does not begin like a .nvdb file" : "it has no further grid where one should be"};
@@ -172,7 +172,7 @@ AlignedBytes read_grid(const std::string& path, InputFile& file, const Entry& e,
   constexpr std::uint64_t kBestRatio = 1100;  // zlib's best is 1032, of zeros
   if (e.codec == kNone ? e.size != e.grid_size : e.grid_size / kBestRatio > e.size) throw Damaged{"its size is wrong"};
   if (auto enough = check_memory(e.grid_size); !enough) refuse(name_of(e.info, path) + ": " + enough.error().message);
-  const std::vector<std::byte> data = file.read(e.begin, e.size, options);
+  const auto data = file.read(e.begin, e.size, options);
   AlignedBytes grid(e.grid_size);
   if (e.codec == kNone) {
     std::copy(data.begin(), data.end(), grid.span().begin());

@@ -10,7 +10,7 @@ namespace {
 /// Calls parse(cursor) on ever longer pieces of the file from `begin` on, until it finds all it asks for.
 template <class F> auto parse_at(InputFile& file, std::uint64_t begin, std::uint64_t end, const F& parse) {
   for (std::uint64_t piece = 64 << 10;; piece *= 8) {
-    const std::vector<std::byte> data = file.read(begin, std::min(piece, end - begin));
+    const auto data = file.read(begin, std::min(piece, end - begin));
     Cursor cursor(data);
     try {
       return parse(cursor);
@@ -53,7 +53,7 @@ GridHead Archive::head(const GridEntry& entry) {
   return parse_at(file_, entry.begin, entry.end, [](Cursor& c) { return read_grid_head(c); });
 }
 
-std::vector<std::byte> Archive::bytes(const GridEntry& entry, bool topology_only, const LoadOptions& options) {
+LargeArray<std::byte> Archive::bytes(const GridEntry& entry, bool topology_only, const LoadOptions& options) {
   return file_.read(entry.begin, (topology_only ? entry.blocks : entry.end) - entry.begin, options);
 }
 
@@ -78,7 +78,7 @@ void Archive::follow_offsets(const FileHead& head, std::uint64_t at) {
 
 /// A file that was written as a stream tells no places: they are found by walking all trees.
 void Archive::walk_stream(const FileHead& head, std::uint64_t at) {
-  const std::vector<std::byte> data = file_.read(0, file_.size());
+  const auto data = file_.read(0, file_.size());
   Cursor c(data, at);
   for (int i = 0; i < head.grids; ++i) {
     GridEntry entry = read_grid_entry(c);

@@ -21,7 +21,7 @@ class Archive {
   /// Throws Damaged, FileProblem.
   GridHead head(const GridEntry& entry);
   /// The bytes of a grid, without the values of its leaves where `topology_only`. Throws FileProblem.
-  std::vector<std::byte> bytes(const GridEntry& entry, bool topology_only, const LoadOptions& options = {});
+  LargeArray<std::byte> bytes(const GridEntry& entry, bool topology_only, const LoadOptions& options = {});
 
  private:
   void follow_offsets(const FileHead& head, std::uint64_t at);

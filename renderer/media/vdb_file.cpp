@@ -113,7 +113,7 @@ struct Voxels {
 
 Voxels read_voxels(Archive& file, const GridEntry& entry, GridInfo& info, const LoadOptions& options) {
   const GridEntry& source = file.tree_of(entry);
-  const std::vector<std::byte> data = file.bytes(source, false, part_of(options, 0.0f, 0.3f));
+  const auto data = file.bytes(source, false, part_of(options, 0.0f, 0.3f));
   Cursor c(data);
   const TreeFormat format{value_of_tree(source.tree).value(), source.half, read_grid_head(c).compression};
   Tree tree = read_topology(c, format);
@@ -126,7 +126,7 @@ Voxels read_voxels(Archive& file, const GridEntry& entry, GridInfo& info, const 
     throw Damaged{enough.error().message};
 
   Voxels voxels{tree.background, {}};
-  std::vector<LeafBlock>& leaves = voxels.blocks.leaves;
+  auto& leaves = voxels.blocks.leaves;
   leaves.resize(tree.leaves.size());
   constexpr int kChunk = 256;  // leaves: some milliseconds of unpacking
   const int chunks = static_cast<int>((leaves.size() + kChunk - 1) / kChunk);
@@ -199,7 +199,7 @@ GridInfo list_grid(Archive& file, const GridEntry& entry, bool scan) {
     scan_values(voxels.blocks, info);
   } else if (readable && !told) {
     const GridEntry& source = file.tree_of(entry);
-    const std::vector<std::byte> data = file.bytes(source, true);
+    const auto data = file.bytes(source, true);
     Cursor c(data);
     const std::uint32_t compression = read_grid_head(c).compression;
     set_box(read_topology(c, {value_of_tree(source.tree).value(), source.half, compression}), info);
