@@ -52,6 +52,7 @@ template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context
     const bool scatters = !rec.empty() && rec.scattered() > 0;
     for_lights(bounce, 0, all, context, [&](const Light& light, float weight, const LightNumbers& numbers) {
       for (int i = 0; scatters && i < rec.n; ++i) {
+        if (rec.p[i] == 0) continue;
         const ArenaScope step_scope(context.arena);
         const float width = rec.t[i + 1] - rec.t[i];
         const RayPoint<C> at = evaluate(rec, rec.t[i] + settings.offset * width, i);
