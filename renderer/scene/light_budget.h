@@ -5,10 +5,10 @@
 
 namespace brume {
 
-/// Light samples of each light for which lighting costs about as much as the march of the ray that they are drawn on:
-/// with fewer, rays are marched for too little; with more, the samples of one ray tell the same again and again.
-/// Between a half and double of it the error after a given time changes little. From what look-ups cost and how long
-/// rays are on average; the same for every camera.
+/// Light samples of each light for which the cost of lighting and that of the march of the ray that they are drawn on
+/// balance: with fewer, rays are marched for too little; with more, the samples of one ray tell the same again and
+/// again. Between a half and double of it the error after a given time changes little. From what look-ups cost and how
+/// long rays are on average; the same for every camera.
 int balanced_light_samples(const Scene& scene);
 
 }  // namespace brume
