@@ -33,7 +33,7 @@ bool for_each_pixel(const Grid& grid, WorkerPool& pool, const Cancelled& cancell
 /// The pass's sample of the pixel (x, y) of a picture of width x height.
 Color sample_pixel(const Scene& scene, const Integrator& integrator, const Grid& grid, int x, int y,
                    const Sampler& pass, Worker& worker) {
-  const Sampler sampler = pass.of_pixel(static_cast<std::uint32_t>(y * grid.width + x));
+  const Sampler sampler = pass.of_pixel(x, y, grid.width);
   const Vec2 inside = sampler.u2(Decision::Pixel);
   const float width = static_cast<float>(grid.width), height = static_cast<float>(grid.height);
   const Ray ray = scene.camera.ray((static_cast<float>(x) + inside.x) / width,

@@ -75,11 +75,12 @@ class PaddedPoint {
 
 using Matrix = std::array<std::uint32_t, 32>;  // column j: what bit j of the index adds to the digits
 
-/// The matrices of the first dimensions, with the direction numbers of Joe & Kuo 2008 that Boost holds.
-const std::array<Matrix, Sampler::kJointDimensions>& sobol_matrices() {
+/// The matrices of the first dimensions, for the passes and for the pixels of a block, with the direction numbers of
+/// Joe & Kuo 2008 that Boost holds.
+const std::array<Matrix, 2 * Sampler::kJointDimensions>& sobol_matrices() {
   static const auto matrices = [] {
-    std::array<Matrix, Sampler::kJointDimensions> all;
-    boost::random::sobol_engine<std::uint32_t, 32> engine(Sampler::kJointDimensions);
+    std::array<Matrix, 2 * Sampler::kJointDimensions> all;
+    boost::random::sobol_engine<std::uint32_t, 32> engine(all.size());
     for (unsigned j = 0; j < 32; ++j) {
       // Boost runs through the points in the order of Gray's code and leaves out the first, which is 0: this is the one
       // whose index has bit j only.
@@ -89,6 +90,37 @@ const std::array<Matrix, Sampler::kJointDimensions>& sobol_matrices() {
     return all;
   }();
   return matrices;
+}
+
+/// Digits of the first 16 points, which the pixels of a block share out among themselves: each adds the digits of its
+/// own one to those of the pass. They are points of other dimensions than the pass's: with the same ones, all pixels
+/// would see the same 16 points in 16 passes, in another order, and all err alike.
+constexpr int kBlockSide = 4, kBlockPixels = kBlockSide * kBlockSide, kBlockDigits = 4;
+using BlockPoint = std::array<std::uint32_t, kBlockPixels>;
+
+const std::array<BlockPoint, Sampler::kJointDimensions>& block_points() {
+  static const auto points = [] {
+    std::array<BlockPoint, Sampler::kJointDimensions> all{};
+    for (std::size_t d = 0; d < all.size(); ++d)
+      for (std::uint32_t i = 0; i < kBlockPixels; ++i)
+        for (std::uint32_t j = 0; j < kBlockDigits; ++j)
+          if (i >> j & 1) all[d][i] ^= sobol_matrices()[Sampler::kJointDimensions + d][j];
+    return all;
+  }();
+  return points;
+}
+
+/// Number of a pixel in its block, so that every 2x2 pixels are an aligned run of four: Morton's order.
+std::uint32_t place_in_block(int x, int y) {
+  const auto i = static_cast<std::uint32_t>(x), j = static_cast<std::uint32_t>(y);
+  return (i & 1) | (j & 1) << 1 | (i & 2) << 1 | (j & 2) << 2;
+}
+
+/// Owen scrambling of the first digits: 15 random bits tell for each whether it is flipped, by the ones before it.
+std::uint32_t scramble_first_digits(std::uint32_t x, std::uint32_t bits) {
+  const std::uint32_t flips = (bits & 1) | (bits >> (1 + (x & 1)) & 1) << 1 | (bits >> (3 + (x & 3)) & 1) << 2 |
+                              (bits >> (7 + (x & 7)) & 1) << 3;
+  return x ^ flips;
 }
 
 /// Where in the point of a pass a decision has its dimensions: the best ones, which are the first, go to what matters
@@ -124,7 +156,12 @@ int joint_dimension(Decision decision, int bounce, int index) {
 }  // namespace
 
 Sampler::Sampler(SamplerKind kind, std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample)
-    : kind_(kind), sample_(sample), seed_key_(combine(0, seed)), pixel_key_(combine(seed_key_, pixel)), point_{} {
+    : kind_(kind),
+      sample_(sample),
+      seed_key_(combine(0, seed)),
+      pixel_key_(combine(seed_key_, pixel)),
+      block_key_(mix(pixel_key_)),
+      point_{} {
   if (kind != SamplerKind::Sobol) return;
   const auto& matrices = sobol_matrices();
   for (std::size_t d = 0; d < point_.size(); ++d)
@@ -132,44 +169,60 @@ Sampler::Sampler(SamplerKind kind, std::uint64_t seed, std::uint32_t pixel, std:
       if (rest & 1) point_[d] ^= matrices[d][j];
 }
 
-Sampler Sampler::of_pixel(std::uint32_t pixel) const {
+Sampler Sampler::of_pixel(int x, int y, int picture_width) const {
+  const auto number = [](int column, int row, int columns) {
+    return static_cast<std::uint64_t>(row) * static_cast<std::uint64_t>(columns) + static_cast<std::uint64_t>(column);
+  };
   Sampler other = *this;
-  other.pixel_key_ = combine(seed_key_, pixel);
+  other.pixel_key_ = combine(seed_key_, number(x, y, picture_width));
+  other.block_key_ = combine(~seed_key_, number(x / kBlockSide, y / kBlockSide, picture_width));
+  other.place_ = place_in_block(x, y);
   return other;
 }
 
-std::uint64_t Sampler::dimension_key(Decision decision, int bounce, int index) const {
+std::uint64_t Sampler::dimension_key(std::uint64_t key, Decision decision, int bounce, int index) const {
   const std::uint64_t dimension = (static_cast<std::uint64_t>(decision) << 56) ^
                                   (static_cast<std::uint64_t>(static_cast<std::uint32_t>(bounce)) << 24) ^
                                   static_cast<std::uint32_t>(index);
-  return combine(pixel_key_, dimension);
+  return combine(key, dimension);
+}
+
+/// The first digits are those of the block, the others the pixel's own.
+std::uint32_t Sampler::joint_bits(std::size_t dimension, std::uint32_t pixel_key, std::uint32_t block_key) const {
+  constexpr std::uint32_t kFirst = (1u << kBlockDigits) - 1;
+  const std::uint32_t x = point_[dimension] ^ block_points()[dimension][place_];
+  return reverse_bits((laine_karras(x, pixel_key) & ~kFirst) | scramble_first_digits(x & kFirst, block_key));
 }
 
 float Sampler::u1(Decision decision, int bounce, int index) const {
-  const std::uint64_t key = dimension_key(decision, bounce, index);
+  const std::uint64_t key = dimension_key(pixel_key_, decision, bounce, index);
   if (kind_ == SamplerKind::Independent) return to_unit(static_cast<std::uint32_t>(combine(key, sample_)));
-  if (const int d = joint_dimension(decision, bounce, index); d >= 0)
-    return to_unit(reverse_bits(laine_karras(point_[static_cast<std::size_t>(d)], static_cast<std::uint32_t>(key))));
+  if (const int d = joint_dimension(decision, bounce, index); d >= 0) {
+    const std::uint64_t block = dimension_key(block_key_, decision, bounce, index);
+    return to_unit(
+        joint_bits(static_cast<std::size_t>(d), static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(block)));
+  }
   return to_unit(PaddedPoint(sample_, key).x());
 }
 
 Vec2 Sampler::u2(Decision decision, int bounce, int index) const {
-  const std::uint64_t key = dimension_key(decision, bounce, index);
+  const std::uint64_t key = dimension_key(pixel_key_, decision, bounce, index);
   if (kind_ == SamplerKind::Independent) {
     const std::uint64_t bits = combine(key, sample_);
     return {to_unit(static_cast<std::uint32_t>(bits)), to_unit(static_cast<std::uint32_t>(bits >> 32))};
   }
   if (const int d = joint_dimension(decision, bounce, index); d >= 0) {
     const auto x = static_cast<std::size_t>(d);
-    return {to_unit(reverse_bits(laine_karras(point_[x], static_cast<std::uint32_t>(key)))),
-            to_unit(reverse_bits(laine_karras(point_[x + 1], static_cast<std::uint32_t>(key >> 32))))};
+    const std::uint64_t block = dimension_key(block_key_, decision, bounce, index);
+    return {to_unit(joint_bits(x, static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(block))),
+            to_unit(joint_bits(x + 1, static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(block >> 32)))};
   }
   const PaddedPoint p(sample_, key);
   return {to_unit(p.x()), to_unit(p.y())};
 }
 
 float Sampler::per_pixel(Decision decision) const {
-  return to_unit(static_cast<std::uint32_t>(dimension_key(decision, 0, 0) >> 32));
+  return to_unit(static_cast<std::uint32_t>(dimension_key(pixel_key_, decision, 0, 0) >> 32));
 }
 
 }  // namespace brume

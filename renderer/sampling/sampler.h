@@ -49,12 +49,17 @@ inline constexpr int kDecisionCount = static_cast<int>(Decision::ShadowRoulette)
 ///
 /// The decisions that every camera ray takes share one point of the pass, each pixel scrambling its digits in its own
 /// way: they are stratified together. What few rays decide, or far down a path, gets pairs of dimensions of its own.
+/// The first digits are also shared out among the 4x4 pixels of a block, so that in every pass the block as a whole is
+/// stratified too: neighbours err in opposite directions, and noise is fine-grained (blue), which eyes and filters
+/// average away. Ahmed & Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical
+/// Ordering of Pixels"; theirs orders the whole picture, for a number of passes known beforehand.
 class Sampler {
  public:
+  /// A pixel without neighbours.
   Sampler(SamplerKind kind, std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample);
 
-  /// The same sample of another pixel; for all pixels of a pass, because it costs less than a new one.
-  Sampler of_pixel(std::uint32_t pixel) const;
+  /// The same sample for a pixel of a picture; for all pixels of a pass, because it costs less than a new one.
+  Sampler of_pixel(int x, int y, int picture_width) const;
 
   SamplerKind kind() const { return kind_; }
   std::uint32_t sample() const { return sample_; }
@@ -69,11 +74,13 @@ class Sampler {
   static constexpr int kJointDimensions = 24;
 
  private:
-  std::uint64_t dimension_key(Decision decision, int bounce, int index) const;
+  std::uint64_t dimension_key(std::uint64_t key, Decision decision, int bounce, int index) const;
+  std::uint32_t joint_bits(std::size_t dimension, std::uint32_t pixel_key, std::uint32_t block_key) const;
 
   SamplerKind kind_;
   std::uint32_t sample_;
-  std::uint64_t seed_key_, pixel_key_;
+  std::uint32_t place_ = 0;  // of the pixel in its block
+  std::uint64_t seed_key_, pixel_key_, block_key_;
   std::array<std::uint32_t, kJointDimensions> point_;  // of the pass, digits in reverse
 };
 

@@ -175,6 +175,51 @@ TEST(SobolSampler, SixteenPointsOfAPairHitEveryElementaryInterval) {
         }
 }
 
+TEST(SobolSampler, InEveryPassTheBlocksOfPixelsHitEverySixteenthOnceAndTheirQuartersEveryQuarter) {
+  constexpr int kPictureWidth = 101;
+  for (const std::uint32_t pass : {0u, 1u, 7u, 1234u})
+    for (const Decision d : {Decision::Pixel, Decision::DensityDistance, Decision::MarchOffset, Decision::LightPoint,
+                             Decision::BounceDistance, Decision::LightChoice})
+      for (const auto& [block_x, block_y] : {std::pair(0, 0), {7, 3}, {25, 60}}) {
+        std::vector<int> hits(16), hits_of_quarter(16);
+        const Sampler sampler(SamplerKind::Sobol, 5, 0, pass);
+        for (int y = 0; y < 4; ++y)
+          for (int x = 0; x < 4; ++x) {
+            const float u = sampler.of_pixel(4 * block_x + x, 4 * block_y + y, kPictureWidth).u1(d);
+            ++hits[static_cast<std::size_t>(u * 16)];
+            ++hits_of_quarter[static_cast<std::size_t>(4 * (2 * (y / 2) + x / 2)) + static_cast<std::size_t>(u * 4)];
+          }
+        EXPECT_EQ(hits, std::vector<int>(16, 1)) << "pass " << pass << ", decision " << static_cast<int>(d);
+        EXPECT_EQ(hits_of_quarter, std::vector<int>(16, 1)) << "pass " << pass << ", decision " << static_cast<int>(d);
+      }
+}
+
+TEST(SobolSampler, EveryPixelOfABlockHasAScrambledSequenceOfItsOwn) {
+  for (int x = 0; x < 8; ++x)
+    for (int y = 0; y < 8; ++y) {
+      std::vector<int> hits(64);
+      for (std::uint32_t s = 0; s < 64; ++s) {
+        const float u = Sampler(SamplerKind::Sobol, 5, 0, s).of_pixel(x, y, 64).u1(Decision::DensityDistance);
+        ++hits[static_cast<std::size_t>(u * 64)];
+      }
+      EXPECT_EQ(hits, std::vector<int>(64, 1)) << x << ' ' << y;
+    }
+  // Over blocks the numbers of one place are random.
+  for (const Decision d : {Decision::DensityDistance, Decision::LightPoint}) {
+    std::vector<double> here, right, below;
+    for (int k = 0; k < 8192; ++k) {
+      const Sampler pass(SamplerKind::Sobol, 5, 0, 3);
+      const int x = 4 * (k % 128), y = 4 * (k / 128);
+      here.push_back(static_cast<double>(pass.of_pixel(x, y, 512).u1(d)));
+      right.push_back(static_cast<double>(pass.of_pixel(x + 4, y, 512).u1(d)));
+      below.push_back(static_cast<double>(pass.of_pixel(x, y + 4, 512).u1(d)));
+    }
+    EXPECT_GT(chi_square_uniform(here, 64), kChiSquareSignificance);
+    EXPECT_GT(chi_square_square(here, right, 16), kChiSquareSignificance);
+    EXPECT_GT(chi_square_square(here, below, 16), kChiSquareSignificance);
+  }
+}
+
 TEST(SobolSampler, MeanOfASmoothFunctionConvergesFasterThanIndependentNumbers) {
   // Owen scrambling: variance O(n^-3) for smooth one-dimensional integrands against O(n^-1).
   constexpr int kN = 256;
