@@ -13,7 +13,8 @@ namespace brume {
 ///   w_i = P_i / delta_i * (integral over the segment of 1/r^2) * phase * cosine at the light,
 /// which is scattering times transmittance times what arrives unshadowed; the phase function is a mean over the edges,
 /// the cosine that of the middle of the segment. Inside the segment the distance is equi-angular where 1/r^2 varies
-/// most, next to the light, and as in density sampling elsewhere. What is left to vary is the shadow. Brume's own
+/// most, next to the light, and as in density sampling elsewhere. What is left to vary is the shadow; one sample in a
+/// hundred is drawn by the integral of 1/r^2 alone, for media so dense that shadows are everything. Brume's own
 /// addition to the techniques of Kulla & Fajardo 2012, who draw in proportion to one factor or the other.
 template <int C> class ProductSampling {
  public:
@@ -23,8 +24,8 @@ template <int C> class ProductSampling {
   ProductSampling(const MarchRecord<C>& record, const Ray& ray, const LightPivot& pivot, Interval lit,
                   const PhaseFunction* phase, Arena& arena);
 
-  /// Sum of the weights: the light that the ray scatters to its origin, unshadowed, for a light of unit intensity.
-  float total() const { return cdf_[record_.n]; }
+  /// Sum of the products: the light that the ray scatters to its origin, unshadowed, for a light of unit intensity.
+  float total() const;
 
   struct Sample {
     RayPoint<C> at;

@@ -28,8 +28,8 @@ void LightCosines(const float* t, int n, const ProductTerms& terms, float* cosin
   }
 }
 
-void ProductWeights(const float* t, const float* p, const float* phase, int n, const ProductTerms& terms,
-                    float* weight) {
+void ProductWeights(const float* t, const float* p, const float* phase, int n, const ProductTerms& terms, float* weight,
+                    float* angle) {
   const D d;
   const V half = hn::Set(d, 0.5f), foot = hn::Set(d, terms.foot), zero = hn::Zero(d);
   const V near2 = hn::Set(d, terms.distance * terms.distance);
@@ -37,8 +37,10 @@ void ProductWeights(const float* t, const float* p, const float* phase, int n, c
   for (int i = 0; i < n; i += static_cast<int>(hn::Lanes(d))) {
     const V begin = hn::LoadU(d, t + i), end = hn::LoadU(d, t + i + 1), middle = hn::Mul(half, hn::Add(begin, end));
     const V s = hn::Sub(middle, foot);
-    const V r2 = hn::MulAdd(s, s, near2);
-    V w = hn::Div(hn::Load(d, p + i), r2);
+    const V r2 = hn::MulAdd(s, s, near2), scattered = hn::Load(d, p + i), inverse = hn::Div(hn::Set(d, 1.0f), r2);
+    V w = hn::Mul(scattered, inverse);
+    const V seen = hn::Mul(hn::Sub(end, begin), inverse);
+    hn::Store(hn::IfThenElseZero(hn::Gt(scattered, zero), seen), d, angle + i);
     if (phase) w = hn::Mul(w, hn::Mul(half, hn::Add(hn::Load(d, phase + i), hn::LoadU(d, phase + i + 1))));
     if (terms.flat) {
       V at_begin = hn::MulAdd(slope, begin, height), at_end = hn::MulAdd(slope, end, height);
@@ -68,8 +70,8 @@ void light_cosines(const float* t, int n, const ProductTerms& terms, float* cosi
 }
 
 void product_weights(const float* t, const float* p, const float* phase, int n, const ProductTerms& terms,
-                     float* weight) {
-  HWY_DYNAMIC_DISPATCH(ProductWeights)(t, p, phase, n, terms, weight);
+                     float* weight, float* angle) {
+  HWY_DYNAMIC_DISPATCH(ProductWeights)(t, p, phase, n, terms, weight, angle);
 }
 
 }  // namespace brume

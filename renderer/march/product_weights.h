@@ -22,7 +22,8 @@ void light_cosines(const float* t, int n, const ProductTerms& terms, float* cosi
 /// those of the middle of segment i; where the plane cuts the segment the cosine is not 0 while some of it is lit. The
 /// phase function is that of the edges because a sharp peak may lie between the middles.
 /// @param p  [n].  @param phase  [n + 1], may be null
+/// @param angle  [n], becomes (length of segment i) / (distance^2 + s^2), and 0 where p is
 void product_weights(const float* t, const float* p, const float* phase, int n, const ProductTerms& terms,
-                     float* weight);
+                     float* weight, float* angle);
 
 }  // namespace brume

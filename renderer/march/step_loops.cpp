@@ -58,6 +58,16 @@ void WriteEdges(const StepRow& row, float* t) {
     hn::StoreU(hn::MulAdd(hn::Add(iota(), hn::Set(d, static_cast<float>(i))), step, begin), d, t + i);
 }
 
+float Sum(const float* values, int n) {
+  const D d;
+  V total = hn::Zero(d);
+  int i = 0;
+  for (; i + lanes() <= n; i += lanes()) total = hn::Add(total, hn::LoadU(d, values + i));
+  float all = hn::GetLane(hn::SumOfLanes(d, total));
+  for (; i < n; ++i) all += values[i];
+  return all;
+}
+
 /// Calls f(i) -> V for whole vectors and stores them; of the last one, what is left.
 template <class F> HWY_INLINE void store_each(int n, float* out, const F& f) {
   const D d;
@@ -277,6 +287,7 @@ namespace brume {
 
 HWY_EXPORT(WriteSteps);
 HWY_EXPORT(WriteEdges);
+HWY_EXPORT(Sum);
 HWY_EXPORT(SetScaled);
 HWY_EXPORT(AddScaled);
 HWY_EXPORT(Attenuate);
@@ -287,6 +298,7 @@ void write_edges(const StepRow& row, float* t) { HWY_DYNAMIC_DISPATCH(WriteEdges
 void write_steps(const Ray& ray, const StepRow& row, float* t, float* x, float* y, float* z) {
   HWY_DYNAMIC_DISPATCH(WriteSteps)(ray, row, t, x, y, z);
 }
+float sum(const float* values, int n) { return HWY_DYNAMIC_DISPATCH(Sum)(values, n); }
 void set_scaled(const float* values, float factor, int n, float* out) {
   HWY_DYNAMIC_DISPATCH(SetScaled)(values, factor, n, out);
 }

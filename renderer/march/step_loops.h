@@ -32,6 +32,8 @@ void write_steps(const Ray& ray, const StepRow& row, float* t, float* x, float* 
 void set_scaled(const float* values, float factor, int n, float* out);
 void add_scaled(const float* values, float factor, int n, float* out);
 
+float sum(const float* values, int n);
+
 /// What edges t and extinction sigma_t do to light on its way to t[0].
 struct Attenuation {
   float* tau;            ///< [n + 1] sum_{j < i} sigma_t[j] (t[j + 1] - t[j])

@@ -46,7 +46,7 @@ std::vector<ReferenceOutcome> run(const std::vector<std::string>& files, const R
   return std::move(*outcomes);
 }
 
-/// The three modes of decoupled marching where they can be held against closed forms.
+/// The four modes of decoupled marching where they can be held against closed forms.
 TEST(Reference, TransmittanceEmissionAndSingleScatteringWithinThreeInAThousand) {
   const double noise = kNoiseFactor * (full_effort() ? 1e-3 : 3e-3);
   ReferenceOptions options;

@@ -288,7 +288,11 @@ bool ReferenceMethod::tracks() const {
 
 std::vector<ReferenceMethod> default_reference_methods() {
   using enum DistanceSampling;
-  return {{"null_scattering"}, {"decoupled", Density}, {"decoupled", Equiangular}, {"decoupled", Mis}};
+  return {{"null_scattering"},
+          {"decoupled", Density},
+          {"decoupled", Equiangular},
+          {"decoupled", Mis},
+          {"decoupled", Product}};
 }
 
 Result<std::vector<ReferenceMethod>> reference_methods(const std::string& key) {
@@ -299,9 +303,6 @@ Result<std::vector<ReferenceMethod>> reference_methods(const std::string& key) {
     known.push_back("decoupled:" + std::string(name_of(m.mode)));
     if (key == "all" || key == "decoupled" || key == known.back()) methods.push_back(m);
   }
-  // Brume's own technique is unbiased too, but noisier than is asked for behind ten mean free paths: only by name.
-  known.push_back("decoupled:product");
-  if (key == known.back()) methods.push_back({"decoupled", DistanceSampling::Product});
   for (const IntegratorType& t : integrator_types()) {
     known.push_back(t.table.key);
     // Deep shadow maps are biased by their resolution, without a stated bound: only when asked for by name.
