@@ -71,6 +71,7 @@ Json needs_json(const SceneNeeds& n) {
           {"emission", n.emission},
           {"overlap", n.overlap},
           {"lookups", n.lookups},
+          {"baked", n.baked},
           {"equiangular", n.equiangular},
           {"split_homogeneous", n.split_homogeneous},
           {"surfaces", n.surfaces},

@@ -189,7 +189,8 @@ ShaderType cloud_shader_type() {
        number("billow", "Billow", 1).between(0, 1).says("From smooth swells (0) to round lumps between creases (1)."),
        integer("seed", "Seed", 8).between(0, 2147483647).slider(0, 100).says("Which of many clouds of the same kind.")},
       false,
-      make_cloud_shader};
+      make_cloud_shader,
+      true};
 }
 
 }  // namespace brume

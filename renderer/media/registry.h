@@ -29,6 +29,7 @@ struct ShaderType {
   bool brings_bounds;
   /// @param volume  has `params`.  Errors name the key.
   Result<MadeShader> (*make)(const Node& volume, const ShaderContext& context);
+  bool bakes = false;  ///< dearer to compute than to look up on voxels: see bake.h
 };
 
 const std::vector<ShaderType>& shader_types();

@@ -33,6 +33,7 @@ struct ShaderTraits {
   bool own_emission = false;  ///< emission() gives a field of its own instead of following the density
   std::optional<float> finest_scale =
       {};                        ///< world units: size of the smallest feature (a voxel); sets the automatic step
+  bool baked = false;            ///< a procedural density, looked up on voxels
   float lookup_nanoseconds = 0;  ///< what a point of density() costs, roughly; only ratios count
 };
 

@@ -85,6 +85,7 @@ SceneNeeds needs_of(const Scene& scene) {
     if (!is_grey(m.sigma_t) || !is_grey(m.sigma_s)) needs.channels = 3;
     needs.emission |= m.emits();
     needs.lookups |= !m.traits.constant;
+    needs.baked |= m.traits.baked;
   }
   needs.overlap = scene.media.size() > 1;
   for (const auto& light : scene.lights)
@@ -173,6 +174,7 @@ Result<std::shared_ptr<const Scene>> commit(const Node& description, SceneCache&
 std::string SceneNeeds::to_string() const {
   std::string text = channels == 1 ? "grey" : "chromatic";
   text += lookups ? ", heterogeneous" : ", homogeneous";
+  if (baked) text += ", baked";
   if (overlap) text += ", overlapping";
   if (emission) text += ", glowing";
   text += time ? ", moving" : ", static";

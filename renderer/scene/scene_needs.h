@@ -11,6 +11,7 @@ struct SceneNeeds {
   bool emission = false;           ///< some medium glows
   bool overlap = false;            ///< several media may share a point
   bool lookups = false;            ///< some medium is heterogeneous: rays are marched, not integrated in one segment
+  bool baked = false;              ///< some procedural density is looked up on voxels instead of computed
   bool equiangular = false;        ///< some light has a position
   bool split_homogeneous = false;  ///< product sampling draws among segments, in homogeneous media too
   bool surfaces = false;

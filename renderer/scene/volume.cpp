@@ -3,6 +3,7 @@
 #include "renderer/core/check.h"
 #include "renderer/geometry/shape_params.h"
 #include "renderer/geometry/transform_params.h"
+#include "renderer/media/grid_shader.h"
 #include "renderer/media/registry.h"
 #include "renderer/phase/registry.h"
 
@@ -39,6 +40,17 @@ ParamTable volume_table(const ShaderType& shader) {
   p.push_back(param::color("emission_color", "Emission colour", 1, 1, 1)
                   .slider(0, 1)
                   .says("Colour that multiplies the emission scale."));
+  if (shader.bakes) {
+    p.push_back(param::flag("baked", "Baked", false)
+                    .says("Keeps the density on voxels and looks it up there instead of computing it: much faster, but "
+                          "nothing finer than a voxel is left."));
+    p.push_back(param::number("baked_voxel", "Baked voxel", 0.02)
+                    .more_than(0)
+                    .log_slider(0.001, 1)
+                    .in("world units")
+                    .auto_by_default("the smallest feature of the density")
+                    .says("Edge of the voxels that a baked density is kept on."));
+  }
   if (!shader.brings_bounds)
     table.slots.push_back({"bounds", "Bounds", "Shape outside which there is nothing.", &shape_family()});
   table.slots.push_back({"phase", "Phase function", "Which way light goes on after scattering.", &phase_family()});
@@ -74,6 +86,27 @@ void set_coefficients(const Node& volume, Medium& medium) {
   medium.emission = volume.color("emission_color") * static_cast<float>(volume.number("emission_scale"));
 }
 
+/// The density of a procedural shader on voxels of the volume's own space; null where there is none.
+Result<std::shared_ptr<const Shader>> baked_shader(const Node& volume, const ShaderType& type, const Bounds3& box,
+                                                   const Affined& local_from_scene, SceneCache& cache,
+                                                   const LoadOptions& options) {
+  const auto local = type.make(volume, {Affined(), cache.grids, options});
+  if (!local) return local.error();
+  const double longest_edge =
+      std::max({length(local_from_scene.axis(0)), length(local_from_scene.axis(1)), length(local_from_scene.axis(2))});
+  const double voxel = volume.is_auto("baked_voxel")
+                           ? static_cast<double>(local->shader->traits().finest_scale.value_or(0.02f))
+                           : volume.number("baked_voxel") * longest_edge;
+  BakeRecipe recipe{type.key, {}, box, voxel};
+  for (const Param& p : type.params) recipe.values.push_back(volume.value(p.key));
+  const auto grid = cache.baked.load(recipe, [&] { return bake(*local->shader, box, voxel, options); });
+  if (!grid) return under("baked_voxel", grid.error());
+  if (!*grid) return std::shared_ptr<const Shader>();
+  const GridShader::Field density{*grid, (scaling(Vec3d(1 / voxel)) * local_from_scene).cast<float>()};
+  return std::shared_ptr<const Shader>(
+      std::make_shared<GridShader>(density, GridShader::Glow{}, static_cast<float>(voxel / longest_edge)));
+}
+
 }  // namespace
 
 const Family& volume_family() {
@@ -90,7 +123,8 @@ Result<MadeVolume> make_volume(const Node& volume, Vec3d scene_origin, SceneCach
   if (!placed) return under("transform", placed.error());
   const Affined local_from_scene = *inverse(translation(-scene_origin) * *placed);
 
-  auto made = shader_of(volume).make(volume, {local_from_scene, cache.grids, options});
+  const ShaderType& type = shader_of(volume);
+  auto made = type.make(volume, {local_from_scene, cache.grids, options});
   if (!made) return made.error();
   if (!made->shape) {
     auto shape = make_shape(volume.child("bounds"), cache.meshes);
@@ -99,9 +133,18 @@ Result<MadeVolume> make_volume(const Node& volume, Vec3d scene_origin, SceneCach
     made->shape_from_scene = local_from_scene;
   }
 
+  bool baked = false;
+  if (type.bakes && volume.flag("baked")) {
+    auto shader = baked_shader(volume, type, made->shape->bounds(), local_from_scene, cache, options);
+    if (!shader) return shader.error();
+    baked = *shader != nullptr;
+    if (baked) made->shader = std::move(*shader);
+  }
+
   MadeVolume out;
   out.bounds = transform_bounds(*inverse(made->shape_from_scene), made->shape->bounds());
   out.medium.traits = made->shader->traits();
+  out.medium.traits.baked = baked;
   out.medium.shader = std::move(made->shader);
   out.medium.shape = std::move(made->shape);
   out.medium.shape_from_scene = made->shape_from_scene.cast<float>();
