@@ -139,7 +139,7 @@ void Engine::render_next(Progress& job) {
     render_coarse(scene, *job.integrator, job.job.width, job.job.height, job.divisor, image, pool_, {});
     account(job, start);
     pixels /= job.divisor * job.divisor;
-    publish(job, std::move(image), job.divisor);
+    publish(job, {std::move(image)}, job.divisor);
     job.divisor /= 2;
   } else if (job.divisor > 1) {
     Image image;
@@ -148,7 +148,7 @@ void Engine::render_next(Progress& job) {
     account(job, start);
     pixels /= job.divisor * job.divisor;
     if (complete) {
-      publish(job, std::move(image), job.divisor);
+      publish(job, {std::move(image)}, job.divisor);
       job.divisor /= 2;
     }
   } else {
@@ -159,20 +159,20 @@ void Engine::render_next(Progress& job) {
     if (complete) {
       ++job.statistics.samples_per_pixel;
       if (Clock::now() - job.published >= kLeastPublishInterval || job.finished())
-        publish(job, job.film.mean_image(), 1);
+        publish(job, view_of(job.film, pool_), 1);
     }
   }
   if (complete) seconds_per_ray_ = std::max((job.statistics.cpu_seconds - cpu_before) / pixels, 1e-9);
 }
 
-void Engine::publish(Progress& job, Image image, int divisor) {
+void Engine::publish(Progress& job, FilmView view, int divisor) {
   auto picture = std::make_shared<Picture>();
-  picture->image = std::move(image);
+  picture->image = std::move(view.mean);
   picture->width = job.job.width;
   picture->height = job.job.height;
   picture->divisor = divisor;
   picture->generation = job.job.scene->generation;
-  picture->noise = divisor == 1 ? job.film.noise_estimate() : 0;
+  picture->noise = view.noise;
   picture->finished = job.finished();
   picture->statistics = job.statistics;
   job.published = Clock::now();

@@ -4,8 +4,7 @@
 #include <chrono>
 #include <memory>
 
-#include "renderer/engine/worker_pool.h"
-#include "renderer/film/film.h"
+#include "renderer/engine/pass.h"
 #include "renderer/scene/scene.h"
 
 namespace brume {
@@ -70,7 +69,7 @@ class Engine {
   bool wishes_changed() const;
   void render_next(Progress& job);
   void start_film(Progress& job);
-  void publish(Progress& job, Image image, int divisor);
+  void publish(Progress& job, FilmView view, int divisor);
   void account(Progress& job, std::chrono::steady_clock::time_point start);
 
   WorkerPool pool_;

@@ -5,8 +5,6 @@
 namespace brume {
 namespace {
 
-constexpr int kTileSize = 32;  // pixels; small enough to share evenly, large enough to keep its voxels in the cache
-
 struct Grid {
   int width, height;
   int columns() const { return (width + kTileSize - 1) / kTileSize; }
@@ -66,6 +64,19 @@ bool render_coarse(const Scene& scene, const Integrator& integrator, int width, 
     else
       ++worker.statistics.non_finite;
   });
+}
+
+FilmView view_of(const Film& film, WorkerPool& pool) {
+  FilmView view{Image(film.width(), film.height())};
+  std::vector<Film::NoiseSums> rows(static_cast<std::size_t>(film.height()));
+  pool.run(film.height(), [&](int y, Worker&) {
+    film.mean_row(y, view.mean);
+    rows[static_cast<std::size_t>(y)] = film.noise_of_row(y);
+  });
+  Film::NoiseSums sums;
+  for (const Film::NoiseSums& row : rows) sums.add(row);
+  view.noise = sums.estimate();
+  return view;
 }
 
 }  // namespace brume

@@ -9,6 +9,10 @@
 
 namespace brume {
 
+/// Edge of the tiles that threads take one after the other; pixels. Small enough to share evenly, large enough to keep
+/// its voxels in the cache.
+inline constexpr int kTileSize = 32;
+
 /// Asked once per row of a tile, from every worker; true gives the pass up.
 using Cancelled = std::function<bool()>;
 
@@ -22,5 +26,12 @@ bool render_pass(const Scene& scene, const Integrator& integrator, std::uint32_t
 /// @param width, height  of the full picture.  @return false when it was cancelled
 bool render_coarse(const Scene& scene, const Integrator& integrator, int width, int height, int divisor, Image& image,
                    WorkerPool& pool, const Cancelled& cancelled);
+
+/// What there is to show of a film.
+struct FilmView {
+  Image mean;
+  double noise = 0;  ///< as Film::noise_estimate()
+};
+FilmView view_of(const Film& film, WorkerPool& pool);
 
 }  // namespace brume

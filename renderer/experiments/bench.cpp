@@ -8,6 +8,7 @@
 #include "renderer/core/simd.h"
 #include "renderer/engine/engine.h"
 #include "renderer/experiments/limit_kernels.h"
+#include "renderer/experiments/thread_model.h"
 #include "renderer/integrators/registry.h"
 #include "renderer/march/distribute.h"
 #include "renderer/march/step_loops.h"
@@ -76,6 +77,7 @@ class Bench {
     for (const char* name : {"smoke", "fire", "cloud", "fog", "surfaces"})
       if (auto done = measure_scene(name); !done) return done.error();
     if (auto done = measure_waiting(*description); !done) return done.error();
+    if (wanted("smoke, 64 threads")) model_threads(**smoke);
     return std::move(results_);
   }
 
@@ -315,6 +317,28 @@ class Bench {
     const double between = 1e3 * seconds_since(start) / static_cast<double>(seen.size());
     results_.push_back({"from picture to picture in an orbit, 1280x720", between, "ms", {}, 40});
     return {};
+  }
+
+  /// Tiles handed to 64 threads as the pool does it, by the times they take here; then what one thread does alone
+  /// before the next pass begins. What the threads' caches and memory would have to share is not in it.
+  void model_threads(const Scene& scene) {
+    constexpr int kThreads = 64, kWidth = 1280, kHeight = 720;
+    const std::vector<double> tiles = tile_seconds(scene, kWidth, kHeight);
+    WorkerPool pool;
+    const double start_and_end = 1e-9 * least_nanoseconds([&] { pool.run(kThreads, [](int, Worker&) {}); });
+    Film film(kWidth, kHeight);
+    render_batch(scene, 2, film, pool);
+    // A picture after each pass: its rows are shared out too, but not the memory that they are written to.
+    const double publishing = 1e-9 * least_nanoseconds([&] { static_cast<void>(view_of(film, pool)); });
+    const double allocating = 1e-9 * least_nanoseconds([&] {
+                                const Image image(kWidth, kHeight);
+                                asm volatile("" : : "r"(image.pixels.data()) : "memory");
+                              });
+    const double rows = pool.threads() * (publishing - allocating);
+    const double one = loop_seconds(tiles, 1) + rows + allocating;
+    const double all = loop_seconds(tiles, kThreads) + rows / kThreads + allocating + 2 * start_and_end;
+    results_.push_back({"smoke, 64 threads, model", one / all, "times as fast", kThreads});
+    results_.push_back({"publishing a picture, 1280x720", 1e3 * publishing, "ms"});
   }
 
   const BenchOptions& options_;

@@ -75,8 +75,11 @@ void Film::mean_image(Image& image) const {
   image.width = width_;
   image.height = height_;
   image.pixels.resize(pixels_.size());
-  for (int y = 0; y < height_; ++y)
-    for (int x = 0; x < width_; ++x) image.at(x, y) = mean(x, y);
+  for (int y = 0; y < height_; ++y) mean_row(y, image);
+}
+
+void Film::mean_row(int y, Image& image) const {
+  for (int x = 0; x < width_; ++x) image.at(x, y) = mean(x, y);
 }
 
 Image Film::mean_image() const {
@@ -92,19 +95,34 @@ Image Film::variance_image() const {
   return image;
 }
 
-double Film::noise_estimate() const {
-  double luminance_sum = 0, deviation_sum = 0;
-  std::size_t sampled_pixels = 0, judged_pixels = 0;
-  for (const Pixel& p : pixels_) {
+Film::NoiseSums Film::noise_of_row(int y) const {
+  NoiseSums sums;
+  for (int x = 0; x < width_; ++x) {
+    const Pixel& p = pixel(x, y);
     if (p.count == 0) continue;
-    luminance_sum += luminance(p.mean);
-    sampled_pixels += 1;
+    sums.luminance += luminance(p.mean);
+    ++sums.sampled_pixels;
     if (p.count < 2) continue;
-    deviation_sum += std::sqrt(p.m2_luminance * variance_factor(p.count));
-    judged_pixels += 1;
+    sums.deviation += std::sqrt(p.m2_luminance * variance_factor(p.count));
+    ++sums.judged_pixels;
   }
-  if (judged_pixels == 0 || !(luminance_sum > 0)) return 0;
-  return deviation_sum / static_cast<double>(judged_pixels) / (luminance_sum / static_cast<double>(sampled_pixels));
+  return sums;
+}
+
+void Film::NoiseSums::add(const NoiseSums& other) {
+  luminance += other.luminance, deviation += other.deviation;
+  sampled_pixels += other.sampled_pixels, judged_pixels += other.judged_pixels;
+}
+
+double Film::NoiseSums::estimate() const {
+  if (judged_pixels == 0 || !(luminance > 0)) return 0;
+  return deviation / static_cast<double>(judged_pixels) / (luminance / static_cast<double>(sampled_pixels));
+}
+
+double Film::noise_estimate() const {
+  NoiseSums sums;
+  for (int y = 0; y < height_; ++y) sums.add(noise_of_row(y));
+  return sums.estimate();
 }
 
 }  // namespace brume

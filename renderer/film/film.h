@@ -60,6 +60,18 @@ class Film {
   /// @return 0 when no pixel has two samples or when the picture is black.
   double noise_estimate() const;
 
+  /// Both of them row by row; different rows at the same time.
+  struct NoiseSums {
+    double luminance = 0, deviation = 0;
+    std::size_t sampled_pixels = 0, judged_pixels = 0;
+
+    void add(const NoiseSums& other);
+    double estimate() const;
+  };
+  NoiseSums noise_of_row(int y) const;
+  /// @param image  of the film's size
+  void mean_row(int y, Image& image) const;
+
  private:
   /// One cache line. Luminance has a sum of its own: the channels are correlated, so the variance of a luminance does
   /// not follow from the variances of the channels.
