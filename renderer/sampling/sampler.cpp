@@ -75,11 +75,11 @@ class PaddedPoint {
 
 using Matrix = std::array<std::uint32_t, 32>;  // column j: what bit j of the index adds to the digits
 
-/// The matrices of the first dimensions, for the passes and for the pixels of a block, with the direction numbers of
+/// The matrices of the first dimensions, with the direction numbers of
 /// Joe & Kuo 2008 that Boost holds.
-const std::array<Matrix, 2 * Sampler::kJointDimensions>& sobol_matrices() {
+const std::array<Matrix, Sampler::kJointDimensions>& sobol_matrices() {
   static const auto matrices = [] {
-    std::array<Matrix, 2 * Sampler::kJointDimensions> all;
+    std::array<Matrix, Sampler::kJointDimensions> all;
     boost::random::sobol_engine<std::uint32_t, 32> engine(all.size());
     for (unsigned j = 0; j < 32; ++j) {
       // Boost runs through the points in the order of Gray's code and leaves out the first, which is 0: this is the one
@@ -92,22 +92,32 @@ const std::array<Matrix, 2 * Sampler::kJointDimensions>& sobol_matrices() {
   return matrices;
 }
 
-/// Digits of the first 16 points, which the pixels of a block share out among themselves: each adds the digits of its
-/// own one to those of the pass. They are points of other dimensions than the pass's: with the same ones, all pixels
-/// would see the same 16 points in 16 passes, in another order, and all err alike.
+/// The first digits, in reverse, of the numbers that the pixels of a block share out among themselves, one set for each
+/// dimension: linear maps of the pixel's place, so that a block hits every sixteenth of [0, 1) once and each of its
+/// quarters every quarter; otherwise random.
 constexpr int kBlockSide = 4, kBlockPixels = kBlockSide * kBlockSide, kBlockDigits = 4;
-using BlockPoint = std::array<std::uint32_t, kBlockPixels>;
+using BlockDigits = std::array<std::uint32_t, kBlockPixels>;
 
-const std::array<BlockPoint, Sampler::kJointDimensions>& block_points() {
-  static const auto points = [] {
-    std::array<BlockPoint, Sampler::kJointDimensions> all{};
-    for (std::size_t d = 0; d < all.size(); ++d)
+const std::array<BlockDigits, Sampler::kJointDimensions>& block_digits() {
+  static const auto digits = [] {
+    std::array<BlockDigits, Sampler::kJointDimensions> all{};
+    for (std::size_t d = 0; d < all.size(); ++d) {
+      // Columns of a 4x4 matrix modulo 2 of which the upper left quarter and the lower right one are invertible; the
+      // upper right one is free, the lower left one too.
+      const std::uint64_t bits = mix(0x6272756d65ull + d);
+      constexpr std::uint32_t kInvertible[][2] = {{1, 2}, {2, 1}, {1, 3}, {3, 1}, {2, 3}, {3, 2}};
+      const auto& upper = kInvertible[bits % 6];
+      const auto& lower = kInvertible[bits / 6 % 6];
+      const std::uint32_t column[kBlockDigits] = {upper[0], upper[1],
+                                                  lower[0] << 2 | static_cast<std::uint32_t>(bits >> 32 & 3),
+                                                  lower[1] << 2 | static_cast<std::uint32_t>(bits >> 34 & 3)};
       for (std::uint32_t i = 0; i < kBlockPixels; ++i)
         for (std::uint32_t j = 0; j < kBlockDigits; ++j)
-          if (i >> j & 1) all[d][i] ^= sobol_matrices()[Sampler::kJointDimensions + d][j];
+          if (i >> j & 1) all[d][i] ^= column[j];
+    }
     return all;
   }();
-  return points;
+  return digits;
 }
 
 /// Number of a pixel in its block, so that every 2x2 pixels are an aligned run of four: Morton's order.
@@ -121,6 +131,12 @@ std::uint32_t scramble_first_digits(std::uint32_t x, std::uint32_t bits) {
   const std::uint32_t flips = (bits & 1) | (bits >> (1 + (x & 1)) & 1) << 1 | (bits >> (3 + (x & 3)) & 1) << 2 |
                               (bits >> (7 + (x & 7)) & 1) << 3;
   return x ^ flips;
+}
+
+/// Those of the 15 bits with which 0, the digits of the first pass, becomes `target`.
+constexpr std::uint32_t kBitsOfZero = 1 | 1 << 1 | 1 << 3 | 1 << 7;
+std::uint32_t bits_from_zero_to(std::uint32_t target) {
+  return (target & 1) | (target >> 1 & 1) << 1 | (target >> 2 & 1) << 3 | (target >> 3 & 1) << 7;
 }
 
 /// Where in the point of a pass a decision has its dimensions: the best ones, which are the first, go to what matters
@@ -187,11 +203,14 @@ std::uint64_t Sampler::dimension_key(std::uint64_t key, Decision decision, int b
   return combine(key, dimension);
 }
 
-/// The first digits are those of the block, the others the pixel's own.
+/// The pixel's own scrambling, but for the place of the first pass, of which the first digits are the block's to give.
 std::uint32_t Sampler::joint_bits(std::size_t dimension, std::uint32_t pixel_key, std::uint32_t block_key) const {
   constexpr std::uint32_t kFirst = (1u << kBlockDigits) - 1;
-  const std::uint32_t x = point_[dimension] ^ block_points()[dimension][place_];
-  return reverse_bits((laine_karras(x, pixel_key) & ~kFirst) | scramble_first_digits(x & kFirst, block_key));
+  const std::uint32_t x = point_[dimension];
+  const std::uint32_t target = scramble_first_digits(block_digits()[dimension][place_], block_key);
+  const std::uint32_t own = pixel_key * 0x9e3779b9u >> 16;
+  const std::uint32_t bits = (own & ~kBitsOfZero) | bits_from_zero_to(target);
+  return reverse_bits((laine_karras(x, pixel_key) & ~kFirst) | scramble_first_digits(x & kFirst, bits));
 }
 
 float Sampler::u1(Decision decision, int bounce, int index) const {

@@ -49,10 +49,11 @@ inline constexpr int kDecisionCount = static_cast<int>(Decision::ShadowRoulette)
 ///
 /// The decisions that every camera ray takes share one point of the pass, each pixel scrambling its digits in its own
 /// way: they are stratified together. What few rays decide, or far down a path, gets pairs of dimensions of its own.
-/// The first digits are also shared out among the 4x4 pixels of a block, so that in every pass the block as a whole is
-/// stratified too: neighbours err in opposite directions, and noise is fine-grained (blue), which eyes and filters
-/// average away. Ahmed & Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical
-/// Ordering of Pixels"; theirs orders the whole picture, for a number of passes known beforehand.
+/// In the first pass the 4x4 pixels of a block share their numbers out among themselves, so that the block as a whole
+/// is stratified too: neighbours err in opposite directions, and the noise is fine-grained (blue), which eyes and
+/// filters average away. After Ahmed & Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via
+/// Hierarchical Ordering of Pixels", who order the whole picture, for a number of passes known beforehand. Later passes
+/// have much less noise to share out, and pixels that were coupled in them would err alike.
 class Sampler {
  public:
   /// A pixel without neighbours.

@@ -26,8 +26,9 @@ Film rendered(const char* sampler, int passes, int seed) {
 }
 
 struct Errors {
-  double pixels = 0;  // mean squared error of pixels
-  double blocks = 0;  // of the means of blocks of pixels
+  double pixels = 0;            // mean squared error of pixels
+  double blocks = 0;            // of the means of blocks of pixels
+  double right = 0, below = 0;  // mean product of the errors of neighbours in a block
 };
 
 Errors errors(const Film& film, const Film& truth) {
@@ -39,11 +40,16 @@ Errors errors(const Film& film, const Film& truth) {
         for (int x = bx; x < bx + kBlock; ++x) {
           const double error = static_cast<double>(luminance(film.mean(x, y)) - luminance(truth.mean(x, y)));
           e.pixels += error * error;
+          const auto error_at = [&](int i, int j) {
+            return static_cast<double>(luminance(film.mean(i, j)) - luminance(truth.mean(i, j)));
+          };
+          if (x % 2 == 0) e.right += 2 * error * error_at(x + 1, y);
+          if (y % 2 == 0) e.below += 2 * error * error_at(x, y + 1);
           sum += error;
         }
       e.blocks += sum * sum / (kBlock * kBlock * kBlock * kBlock);
     }
-  e.pixels /= kWidth * kHeight;
+  for (double* sum : {&e.pixels, &e.right, &e.below}) *sum /= kWidth * kHeight;
   e.blocks /= kWidth * kHeight / (kBlock * kBlock);
   return e;
 }
@@ -51,18 +57,23 @@ Errors errors(const Film& film, const Film& truth) {
 TEST(SamplerGain, SobolPointsBeatIndependentNumbersMoreWithEveryPass) {
   const Film truth = rendered("sobol", 512, 99);
   double gain_before = 1;
-  for (const int passes : {1, 4, 16}) {
+  for (const int passes : {1, 4, 16, 64}) {
     Errors sobol, independent;
-    for (const int seed : {1, 2}) {
+    for (const int seed : {1, 2, 3, 4}) {
       const Errors s = errors(rendered("sobol", passes, seed), truth);
       const Errors i = errors(rendered("independent", passes, seed), truth);
-      sobol.pixels += s.pixels, sobol.blocks += s.blocks;
+      sobol.pixels += s.pixels, sobol.blocks += s.blocks, sobol.right += s.right, sobol.below += s.below;
       independent.pixels += i.pixels, independent.blocks += i.blocks;
     }
     const double gain = independent.pixels / sobol.pixels, blue = sobol.pixels / 16 / sobol.blocks;
+    const double right = sobol.right / sobol.pixels, below = sobol.below / sobol.pixels;
     std::printf(
-        "%2d passes: variance %.1f times below independent numbers; of 4x4 pixels, %.1f times below white noise\n",
-        passes, gain, blue);
+        "%2d passes: variance %.1f times below independent numbers; of 4x4 pixels, %.1f times below white noise; "
+        "neighbours correlate %+.2f to the right, %+.2f below\n",
+        passes, gain, blue, right, below);
+    // Whatever is shared out, neighbours must not err alike: that would be seen as a texture.
+    EXPECT_LT(right, 0.15);
+    EXPECT_LT(below, 0.15);
     // Samples of one march are spread in both; it is over the passes that the sequence pays.
     EXPECT_GT(gain, passes == 1 ? 0.9 : 1.3 * gain_before);
     // White noise averages out as 1 over the number of pixels; noise that neighbours share out does so faster.

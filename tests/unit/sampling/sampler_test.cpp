@@ -175,23 +175,22 @@ TEST(SobolSampler, SixteenPointsOfAPairHitEveryElementaryInterval) {
         }
 }
 
-TEST(SobolSampler, InEveryPassTheBlocksOfPixelsHitEverySixteenthOnceAndTheirQuartersEveryQuarter) {
+TEST(SobolSampler, InTheFirstPassBlocksOfPixelsHitEverySixteenthOnceAndTheirQuartersEveryQuarter) {
   constexpr int kPictureWidth = 101;
-  for (const std::uint32_t pass : {0u, 1u, 7u, 1234u})
-    for (const Decision d : {Decision::Pixel, Decision::DensityDistance, Decision::MarchOffset, Decision::LightPoint,
-                             Decision::BounceDistance, Decision::LightChoice})
-      for (const auto& [block_x, block_y] : {std::pair(0, 0), {7, 3}, {25, 60}}) {
-        std::vector<int> hits(16), hits_of_quarter(16);
-        const Sampler sampler(SamplerKind::Sobol, 5, 0, pass);
-        for (int y = 0; y < 4; ++y)
-          for (int x = 0; x < 4; ++x) {
-            const float u = sampler.of_pixel(4 * block_x + x, 4 * block_y + y, kPictureWidth).u1(d);
-            ++hits[static_cast<std::size_t>(u * 16)];
-            ++hits_of_quarter[static_cast<std::size_t>(4 * (2 * (y / 2) + x / 2)) + static_cast<std::size_t>(u * 4)];
-          }
-        EXPECT_EQ(hits, std::vector<int>(16, 1)) << "pass " << pass << ", decision " << static_cast<int>(d);
-        EXPECT_EQ(hits_of_quarter, std::vector<int>(16, 1)) << "pass " << pass << ", decision " << static_cast<int>(d);
-      }
+  for (const Decision d : {Decision::Pixel, Decision::DensityDistance, Decision::MarchOffset, Decision::LightPoint,
+                           Decision::BounceDistance, Decision::LightChoice})
+    for (const auto& [block_x, block_y] : {std::pair(0, 0), {7, 3}, {25, 60}}) {
+      std::vector<int> hits(16), hits_of_quarter(16);
+      const Sampler pass(SamplerKind::Sobol, 5, 0, 0);
+      for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x) {
+          const float u = pass.of_pixel(4 * block_x + x, 4 * block_y + y, kPictureWidth).u1(d);
+          ++hits[static_cast<std::size_t>(u * 16)];
+          ++hits_of_quarter[static_cast<std::size_t>(4 * (2 * (y / 2) + x / 2)) + static_cast<std::size_t>(u * 4)];
+        }
+      EXPECT_EQ(hits, std::vector<int>(16, 1)) << "decision " << static_cast<int>(d);
+      EXPECT_EQ(hits_of_quarter, std::vector<int>(16, 1)) << "decision " << static_cast<int>(d);
+    }
 }
 
 TEST(SobolSampler, EveryPixelOfABlockHasAScrambledSequenceOfItsOwn) {
