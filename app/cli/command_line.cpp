@@ -5,131 +5,21 @@
 #include <sstream>
 
 #include "app/cli/bench.h"
+#include "app/cli/compare.h"
 #include "app/cli/console.h"
 #include "app/cli/docs.h"
+#include "app/cli/flags.h"
 #include "app/cli/info.h"
 #include "app/cli/probe.h"
 #include "app/cli/render.h"
 #include "app/cli/schema.h"
 #include "app/cli/snapshot.h"
 #include "app/window/run_window.h"
+#include "renderer/analysis/metric.h"
 #include "renderer/core/simd.h"
 
 namespace brume {
 namespace {
-
-/// Thrown out of CLI11's parser by flags whose value is wrong; never leaves this file.
-struct BadFlag {
-  Error error;
-};
-
-/// CLI11's help with a usage line of our own and room for long flags.
-class HelpFormatter : public CLI::Formatter {
- public:
-  explicit HelpFormatter(std::string usage) : usage_("Usage: " + std::move(usage) + "\n") {
-    column_width(30);
-    label("Positionals", "Arguments");
-  }
-  std::string make_usage(const CLI::App*, std::string) const override { return usage_; }
-  std::string make_option_name(const CLI::Option* option, bool positional) const override {
-    const std::string name = CLI::Formatter::make_option_name(option, positional);  // "-o,--output"
-    const auto comma = name.find(',');
-    return comma == std::string::npos ? name : name.substr(0, comma) + ", " + name.substr(comma + 1);
-  }
-
- private:
-  std::string usage_;
-};
-
-/// A subcommand, ready to be parsed; `run` reads the options that the parser filled in.
-struct Command {
-  CLI::App* app;
-  std::function<Result<ExitCode>()> run;
-};
-
-CLI::App* add_command(CLI::App& root, const std::string& name, const std::string& doc, const std::string& usage,
-                      const std::string& examples = "") {
-  CLI::App* app = root.add_subcommand(name, doc);
-  app->group("Commands");
-  app->formatter(std::make_shared<HelpFormatter>("brume " + name + " " + usage));
-  app->set_help_flag("-h,--help", "This text");
-  if (!examples.empty()) app->footer(examples);
-  return app;
-}
-
-/// "Samples per pixel (default 16)", from the flag's description, which its value is read and checked with as well.
-std::string help_of(const Param& p) {
-  std::vector<std::string> details;
-  if (!p.unit.empty()) details.push_back(p.unit);
-  std::string usual = p.automatic ? *p.automatic : format_value(p.default_value);
-  if (p.type == ParamType::Resolution) {  // as people type it
-    const Numbers& size = std::get<Numbers>(p.default_value);
-    usual = format_value(size[0]) + "x" + format_value(size[1]);
-  }
-  details.push_back("default " + usual);
-  return p.doc + " (" + join(details, "; ") + ")";
-}
-
-void add_value(CLI::App& app, const std::string& placeholder, const Param& p,
-               const std::function<void(const Value&)>& take) {
-  const std::string flag = "--" + p.key;
-  app.add_option_function<std::string>(
-         flag,
-         [p, flag, take](const std::string& text) {
-           const auto value = parse_value(p, text);
-           if (!value) throw BadFlag{bad_input(value.error().message, {"", 0, 0, flag})};
-           if (!std::holds_alternative<Auto>(*value)) take(*value);
-         },
-         help_of(p))
-      ->option_text(placeholder);
-}
-
-int to_int(const Value& value) { return static_cast<int>(std::get<std::int64_t>(value)); }
-
-void add_threads(CLI::App& app, int& threads) {
-  const Param p =
-      param::integer("threads", "Threads", 1).between(1, 1024).auto_by_default("one per core").says("Render threads");
-  add_value(app, "N", p, [&threads](const Value& v) { threads = to_int(v); });
-}
-
-void add_file(CLI::App& app, std::string& file) {
-  app.add_option("FILE", file, "Scene (.json), grids (.vdb, .nvdb), or a picture that Brume wrote (.exr, .png)")
-      ->required()
-      ->option_text(" ");
-}
-
-/// A flag that is short for --set.
-void add_shorthand(CLI::App& app, SceneOptions& scene, const std::string& flag, const std::string& placeholder,
-                   const std::string& key, const std::string& doc) {
-  app.add_option_function<std::string>(
-         flag,
-         [&scene, flag, key](const std::string& text) {
-           scene.settings.push_back({flag, key, text});
-         },
-         doc)
-      ->option_text(placeholder);
-}
-
-/// --set, applied before the shorthands that are added after it.
-void add_settings(CLI::App& app, SceneOptions& scene) {
-  app.add_option_function<std::vector<std::string>>(
-         "--set",
-         [&scene](const std::vector<std::string>& texts) {
-           for (const std::string& text : texts) {
-             auto setting = parse_setting(text);
-             if (!setting) throw BadFlag{setting.error()};
-             scene.settings.push_back(std::move(*setting));
-           }
-         },
-         "Changes a value of the scene, for example render.bounces=2\nor lights.key.intensity=40,40,40; may be "
-         "repeated")
-      ->option_text("KEY=VALUE")
-      ->allow_extra_args(false);
-}
-
-void add_seed(CLI::App& app, SceneOptions& scene) {
-  add_shorthand(app, scene, "--seed", "N", "render.seed", "Seed of the random numbers (default: the scene's)");
-}
 
 Command make_render(CLI::App& root) {
   auto o = std::make_shared<RenderOptions>();
@@ -261,9 +151,38 @@ Command make_bench(CLI::App& root) {
   return {app, [o] { return run_bench_command(*o); }};
 }
 
+Command make_compare(CLI::App& root) {
+  auto o = std::make_shared<CompareOptions>();
+  std::string keys;
+  for (const Metric& m : metrics()) keys += (keys.empty() ? "" : ", ") + m.key;
+  CLI::App* app = add_command(root, "compare", "Tells how far one picture is from another",
+                              "TEST REFERENCE [--metric METRIC] [OPTIONS]",
+                              "Pictures are .exr, or .png taken as sRGB. Exit code 3: beyond the threshold.\n\n"
+                              "Examples:\n  brume compare smoke.exr reference.exr -o difference.png\n"
+                              "  brume compare smoke.exr reference.exr --metric rmse --threshold 0.01");
+  app->add_option("TEST", o->test, "Picture that is judged")->required()->option_text(" ");
+  app->add_option("REFERENCE", o->reference, "Picture that is right")->required()->option_text(" ");
+  app->add_option("--metric", o->metrics, "One of " + keys + "\n(default: all; may be repeated)")
+      ->option_text("METRIC")
+      ->allow_extra_args(false);
+  app->add_option("-o,--output", o->output, "Writes what a person would see of the difference (FLIP)")
+      ->option_text("DIFF.png");
+  add_value(*app, "X",
+            param::number("threshold", "Threshold", 0)
+                .at_least(0)
+                .auto_by_default("none")
+                .says("Most that the size of the one metric may be"),
+            [o](const Value& v) { o->threshold = std::get<double>(v); });
+  add_value(*app, "STOPS",
+            param::number("exposure", "Exposure", 0).between(-20, 20).in("stops").says("Exposure of what is seen"),
+            [o](const Value& v) { o->exposure = static_cast<float>(std::get<double>(v)); });
+  app->add_flag("--json", o->json, "As JSON");
+  return {app, [o] { return run_compare(*o); }};
+}
+
 std::vector<Command> make_commands(CLI::App& root) {
-  std::vector<Command> commands{make_render(root), make_probe(root), make_snapshot(root), make_info(root),
-                                make_bench(root)};
+  std::vector<Command> commands{make_render(root), make_probe(root),   make_snapshot(root),
+                                make_info(root),   make_compare(root), make_bench(root)};
   commands.push_back(
       {add_command(root, "schema", "Prints the JSON Schema of scene files, for editors", "> brume.schema.json"),
        run_schema});
@@ -314,8 +233,8 @@ Result<void> check_file(const std::string& file, const std::vector<Command>& com
 Result<ExitCode> parse_and_run(int argc, char** argv) {
   CLI::App root("Brume lights smoke, fire, cloud and fog by decoupled ray-marching.");
   root.formatter(
-      std::make_shared<HelpFormatter>("brume [FILE]                     opens the window\n"
-                                      "       brume COMMAND FILE [OPTIONS]"));
+      help_formatter("brume [FILE]                     opens the window\n"
+                     "       brume COMMAND FILE [OPTIONS]"));
   root.set_help_flag("-h,--help", "This text; brume COMMAND --help tells more");
   root.set_version_flag("--version", "brume " BRUME_VERSION, "The program's version");
   std::string file;

@@ -66,16 +66,11 @@ Json bounds_json(const Bounds3& b) {
 }
 
 Json needs_json(const SceneNeeds& n) {
-  return {{"text", n.to_string()},
-          {"channels", n.channels},
-          {"emission", n.emission},
-          {"overlap", n.overlap},
-          {"lookups", n.lookups},
-          {"baked", n.baked},
-          {"equiangular", n.equiangular},
-          {"split_homogeneous", n.split_homogeneous},
-          {"surfaces", n.surfaces},
-          {"time", n.time}};
+  return {{"text", n.to_string()},        {"channels", n.channels},
+          {"emission", n.emission},       {"overlap", n.overlap},
+          {"lookups", n.lookups},         {"baked", n.baked},
+          {"equiangular", n.equiangular}, {"split_homogeneous", n.split_homogeneous},
+          {"surfaces", n.surfaces},       {"time", n.time}};
 }
 
 }  // namespace

@@ -27,18 +27,21 @@ std::uint32_t reverse_bits(std::uint32_t v) {
   return (v >> 16) | (v << 16);
 }
 
+std::uint32_t laine_karras_round(std::uint32_t x, std::uint32_t seed) {
+  x ^= x * 0x3d20adeau;
+  x += seed;
+  x *= (seed >> 16) | 1;
+  x ^= x * 0x05526c56u;
+  x ^= x * 0x53a22864u;
+  return x;
+}
+
 /// Owen scrambling of a bit-reversed number: every bit is flipped by a hash of the bits below it.
 /// Laine & Karras 2011, "Stratified Sampling for Stochastic Transparency", section 3.1; this hash by Vegdahl 2021,
 /// "Building a Better LK Hash". Two rounds: after one, some pairs of dimensions are correlated. Bit k of the result
 /// knows the lowest bits of the seed only, so the rounds must not have the same ones.
 std::uint32_t laine_karras(std::uint32_t x, std::uint32_t seed) {
-  for (int round = 0; round < 2; ++round, seed = std::rotl(seed, 15) * 0x9e3779b9u) {
-    x ^= x * 0x3d20adeau;
-    x += seed;
-    x *= (seed >> 16) | 1;
-    x ^= x * 0x05526c56u;
-    x ^= x * 0x53a22864u;
-  }
+  for (int round = 0; round < 2; ++round, seed = std::rotl(seed, 15) * 0x9e3779b9u) x = laine_karras_round(x, seed);
   return x;
 }
 
@@ -210,7 +213,7 @@ std::uint32_t Sampler::joint_bits(std::size_t dimension, std::uint32_t pixel_key
   const std::uint32_t target = scramble_first_digits(block_digits()[dimension][place_], block_key);
   const std::uint32_t own = pixel_key * 0x9e3779b9u >> 16;
   const std::uint32_t bits = (own & ~kBitsOfZero) | bits_from_zero_to(target);
-  return reverse_bits((laine_karras(x, pixel_key) & ~kFirst) | scramble_first_digits(x & kFirst, bits));
+  return reverse_bits((laine_karras_round(x, pixel_key) & ~kFirst) | scramble_first_digits(x & kFirst, bits));
 }
 
 float Sampler::u1(Decision decision, int bounce, int index) const {

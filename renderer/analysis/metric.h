@@ -1,0 +1,28 @@
+// The metrics by name: what commands, charts and panels can measure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/core/error.h"
+#include "renderer/film/image.h"
+
+namespace brume {
+
+/// One number for the difference of two pictures.
+struct Metric {
+  std::string key;    ///< "rmse"
+  std::string label;  ///< "RMSE"
+  std::string unit;   ///< "" where it has none
+  std::string doc;    ///< one sentence
+  /// @param test, reference  scene-linear.  @param exposure  stops, for metrics of what is seen; others do not look
+  Result<double> (*measure)(const Image& test, const Image& reference, float exposure);
+};
+
+/// rmse, relative_mse, mean_bias, relative_mean_bias, median_of_tiles, flip.
+const std::vector<Metric>& metrics();
+
+/// Null when there is none of that name.
+const Metric* find_metric(const std::string& key);
+
+}  // namespace brume
