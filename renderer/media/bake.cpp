@@ -26,39 +26,34 @@ bool bake_leaf(const Shader& shader, VoxelIndex origin, double voxel, LeafBlock&
   return any;
 }
 
-int floor_to_leaf(double index) { return static_cast<int>(std::floor(index / LeafBlock::kSize)) * LeafBlock::kSize; }
-
 }  // namespace
 
-Result<std::shared_ptr<const BrickGrid>> bake(const Shader& shader, const Bounds3& box, double voxel,
+Result<std::shared_ptr<const BrickGrid>> bake(const Shader& shader, Vec3d size, double voxel,
                                               const LoadOptions& options) {
-  constexpr double kMostLeaves = 1 << 22;  // along no axis more than the table of a grid may have
-  const Vec3d size = (box.high - box.low) / voxel + Vec3d(2.0 * LeafBlock::kSize);
-  const double leaves = size.x * size.y * size.z / LeafBlock::kVoxels;
-  if (!(leaves < kMostLeaves) || std::max({size.x, size.y, size.z}) > static_cast<double>(BrickGrid::kMaxExtent))
-    return bad_input("found voxels of " + format_value(voxel) + ", expected larger ones: these would be " +
+  constexpr int kSize = LeafBlock::kSize;
+  constexpr double kMostLeaves = 1 << 22;
+  const auto leaves_along = [&](double length) { return std::floor(std::ceil(length / voxel) / kSize) + 1; };
+  const double leaves = leaves_along(size.x) * leaves_along(size.y) * leaves_along(size.z);
+  if (!(leaves < kMostLeaves))
+    return bad_input("found voxels that are too small, expected larger ones: there would be " +
                      format_value(leaves * LeafBlock::kVoxels) + " in the volume's bounds");
   if (auto enough = check_memory(static_cast<std::uint64_t>(leaves) * sizeof(LeafBlock)); !enough)
     return enough.error();
+  const int ny = static_cast<int>(leaves_along(size.y)), nz = static_cast<int>(leaves_along(size.z));
 
-  const VoxelIndex low{floor_to_leaf(box.low.x / voxel), floor_to_leaf(box.low.y / voxel),
-                       floor_to_leaf(box.low.z / voxel)};
-  const auto count = [](double high, int from) {
-    return (floor_to_leaf(std::ceil(high)) - from) / LeafBlock::kSize + 1;
-  };
-  const int nx = count(box.high.x / voxel, low.x), ny = count(box.high.y / voxel, low.y),
-            nz = count(box.high.z / voxel, low.z);
   VoxelBlocks blocks;
-  blocks.leaves.resize(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz));
-  std::vector<char> filled(blocks.leaves.size());
-  const bool complete = parallel_load(std::int64_t{nx} * ny, options, 0, 0.8f, [&](std::int64_t column) {
-    constexpr int kSize = LeafBlock::kSize;
-    const int x = static_cast<int>(column / ny), y = static_cast<int>(column % ny);
-    for (int z = 0; z < nz; ++z) {
-      const auto i = static_cast<std::size_t>(column * nz + z);
-      const VoxelIndex origin{low.x + x * kSize, low.y + y * kSize, low.z + z * kSize};
-      filled[i] = bake_leaf(shader, origin, voxel, blocks.leaves[i]) ? 1 : 0;
-    }
+  std::vector<char> filled;
+  try {
+    blocks.leaves.resize(static_cast<std::size_t>(leaves));
+    filled.resize(blocks.leaves.size());
+  } catch (const std::bad_alloc&) {
+    return bad_input("found voxels that are too small for the free memory, expected larger ones");
+  }
+  const bool complete = parallel_load(static_cast<std::int64_t>(leaves), options, 0, 0.8f, [&](std::int64_t number) {
+    const auto i = static_cast<int>(number);
+    const VoxelIndex origin{i / nz / ny * kSize, i / nz % ny * kSize, i % nz * kSize};
+    const auto leaf = static_cast<std::size_t>(number);
+    filled[leaf] = bake_leaf(shader, origin, voxel, blocks.leaves[leaf]) ? 1 : 0;
   });
   if (!complete) return loading_cancelled();
   std::size_t kept = 0;

@@ -13,10 +13,10 @@
 
 namespace brume {
 
-/// The density at the voxels of a box: voxel (i,j,k) is at (i,j,k) * voxel, in the space of the shader's points.
-/// Nothing finer than a voxel is left. On all hardware threads. Null where the density is 0 at all of them.
-/// @param box  of that space.  @param voxel  > 0.  Errors: more voxels than memory; cancelled.
-Result<std::shared_ptr<const BrickGrid>> bake(const Shader& shader, const Bounds3& box, double voxel,
+/// The density at the voxels of a box that begins at (0,0,0): voxel (i,j,k) is at (i,j,k) * voxel, in the space of the
+/// shader's points. Nothing finer than a voxel is left. On all hardware threads. Null where the density is 0 at all of
+/// them.  @param size  of the box.  @param voxel  > 0.  Errors: more voxels than memory; cancelled.
+Result<std::shared_ptr<const BrickGrid>> bake(const Shader& shader, Vec3d size, double voxel,
                                               const LoadOptions& options);
 
 /// What a baked grid is made of.
@@ -35,12 +35,16 @@ struct BakeRecipe {
 /// The grids baked so far: an edit of a light must not bake the cloud again. Any thread.
 class BakeCache {
  public:
-  /// @param make  Result<std::shared_ptr<const BrickGrid>>(), for a recipe that is new
+  /// @param make  Result<std::shared_ptr<const BrickGrid>>(), for a recipe that is new. Nobody waits while it bakes:
+  /// two threads that ask for the same at the same time both do.
   template <class Make> Result<std::shared_ptr<const BrickGrid>> load(const BakeRecipe& recipe, const Make& make) {
-    const std::lock_guard lock(mutex_);
-    for (const Entry& e : entries_)
-      if (e.recipe == recipe) return e.grid;
+    {
+      const std::lock_guard lock(mutex_);
+      for (const Entry& e : entries_)
+        if (e.recipe == recipe) return e.grid;
+    }
     auto grid = make();
+    const std::lock_guard lock(mutex_);
     if (grid) entries_.push_back({recipe, *grid});
     return grid;
   }

@@ -1,5 +1,8 @@
 #include "renderer/scene/volume.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "renderer/core/check.h"
 #include "renderer/geometry/shape_params.h"
 #include "renderer/geometry/transform_params.h"
@@ -42,6 +45,7 @@ ParamTable volume_table(const ShaderType& shader) {
                   .says("Colour that multiplies the emission scale."));
   if (shader.bakes) {
     p.push_back(param::flag("baked", "Baked", false)
+                    .costs(Affects::Geometry)
                     .says("Keeps the density on voxels and looks it up there instead of computing it: much faster, but "
                           "nothing finer than a voxel is left."));
     p.push_back(param::number("baked_voxel", "Baked voxel", 0.02)
@@ -49,6 +53,7 @@ ParamTable volume_table(const ShaderType& shader) {
                     .log_slider(0.001, 1)
                     .in("world units")
                     .auto_by_default("the smallest feature of the density")
+                    .costs(Affects::Geometry)
                     .says("Edge of the voxels that a baked density is kept on."));
   }
   if (!shader.brings_bounds)
@@ -86,25 +91,36 @@ void set_coefficients(const Node& volume, Medium& medium) {
   medium.emission = volume.color("emission_color") * static_cast<float>(volume.number("emission_scale"));
 }
 
-/// The density of a procedural shader on voxels of the volume's own space; null where there is none.
+/// A length of which the last bits do not tell from which rotation it was computed.
+double rounded(double length) {
+  int exponent = 0;
+  const double mantissa = std::frexp(length, &exponent);
+  return std::ldexp(std::round(mantissa * 0x1p20) * 0x1p-20, exponent);
+}
+
+/// The density of a procedural shader on voxels of the volume's own space, counted from the low corner of its bounds;
+/// null where there is none. Where the transform stretches, the voxels' longest edge is the one that is asked for.
 Result<std::shared_ptr<const Shader>> baked_shader(const Node& volume, const ShaderType& type, const Bounds3& box,
                                                    const Affined& local_from_scene, SceneCache& cache,
                                                    const LoadOptions& options) {
-  const auto local = type.make(volume, {Affined(), cache.grids, options});
+  const auto local = type.make(volume, {translation(box.low), cache.grids, options});
   if (!local) return local.error();
-  const double longest_edge =
-      std::max({length(local_from_scene.axis(0)), length(local_from_scene.axis(1)), length(local_from_scene.axis(2))});
+  const Affined scene_from_local = *inverse(local_from_scene);
+  const double edges[] = {length(scene_from_local.axis(0)), length(scene_from_local.axis(1)),
+                          length(scene_from_local.axis(2))};
+  const auto [shortest, longest] = std::minmax_element(std::begin(edges), std::end(edges));
   const double voxel = volume.is_auto("baked_voxel")
                            ? static_cast<double>(local->shader->traits().finest_scale.value_or(0.02f))
-                           : volume.number("baked_voxel") * longest_edge;
+                           : rounded(volume.number("baked_voxel") / *longest);
   BakeRecipe recipe{type.key, {}, box, voxel};
   for (const Param& p : type.params) recipe.values.push_back(volume.value(p.key));
-  const auto grid = cache.baked.load(recipe, [&] { return bake(*local->shader, box, voxel, options); });
+  const auto grid = cache.baked.load(recipe, [&] { return bake(*local->shader, box.high - box.low, voxel, options); });
   if (!grid) return under("baked_voxel", grid.error());
   if (!*grid) return std::shared_ptr<const Shader>();
-  const GridShader::Field density{*grid, (scaling(Vec3d(1 / voxel)) * local_from_scene).cast<float>()};
+  const Affined index_from_scene = scaling(Vec3d(1 / voxel)) * translation(-box.low) * local_from_scene;
   return std::shared_ptr<const Shader>(
-      std::make_shared<GridShader>(density, GridShader::Glow{}, static_cast<float>(voxel / longest_edge)));
+      std::make_shared<GridShader>(GridShader::Field{*grid, index_from_scene.cast<float>()}, GridShader::Glow{},
+                                   static_cast<float>(voxel * *shortest)));
 }
 
 }  // namespace
