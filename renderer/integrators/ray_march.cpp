@@ -68,7 +68,9 @@ template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context
       }
     });
     if (surface)
-      light_at_surface<C>(*surface, beta * to_color(transmittance(rec)), bounce, rec.n, samples, context, shadows);
+      // Its place is behind those of all steps, and the same in every pass.
+      light_at_surface<C>(*surface, beta * to_color(transmittance(rec)), bounce, kMaxSegments, samples, context,
+                          shadows);
     radiance += shadows.light();
     if (bounce == scene.render.bounces) return radiance;
     if (!scatter(rec, surface, ray, beta, bounce, context)) return radiance;

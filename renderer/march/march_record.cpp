@@ -119,7 +119,8 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
   counts.segments += static_cast<std::uint64_t>(rec.n);
 
   const auto n = static_cast<std::size_t>(rec.n);
-  const auto alloc = [&] { return arena.alloc_span<float>(n).data(); };
+  // Stretches begin anywhere: the last vector of one may be read far behind its end.
+  const auto alloc = [&] { return arena.alloc_span<float>(n + kWidestVector).data(); };
   for (float*& channel : rec.sigma_t) channel = alloc();
   for (float*& channel : rec.sigma_s) channel = alloc();
   if (contents.emission)

@@ -62,10 +62,10 @@ ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const Ray& ray
     weight[i] *= exact / angle[i];
     angle[i] = exact;
   }
+  for (int i = 0; i < record.n && record.t[i + 1] <= lit.begin; ++i) weight[i] = angle[i] = 0;
+  for (int i = record.n - 1; i >= 0 && record.t[i] >= lit.end; --i) weight[i] = angle[i] = 0;
   const float angles = sum(angle, record.n);
   if (angles > 0) add_scaled(angle, kDefensive * sum(weight, record.n) / angles, record.n, weight);
-  for (int i = 0; i < record.n && record.t[i + 1] <= lit.begin; ++i) weight[i] = 0;
-  for (int i = record.n - 1; i >= 0 && record.t[i] >= lit.end; --i) weight[i] = 0;
   running_sum(weight, record.n, cdf);
 }
 

@@ -82,10 +82,12 @@ TEST(ProductSampling, TheTotalIsTheUnshadowedLightOfTheRay) {
   Arena arena;
   const ArenaScope scope(arena);
   const HenyeyGreenstein phase(0.4);
-  const auto expect_total = [&](const LightPivot& pivot, const std::function<double(double)>& factor) {
-    const ProductSampling<1> product(*r, ray, pivot, kAll, &phase, arena);
+  const auto expect_total = [&](const LightPivot& pivot, const std::function<double(double)>& factor,
+                                Interval lit = kAll) {
+    const ProductSampling<1> product(*r, ray, pivot, lit, &phase, arena);
     double expected = 0;
     for (int i = 0; i < r->n; ++i) {
+      if (r->t[i + 1] <= lit.begin || r->t[i] >= lit.end) continue;
       const double t = 0.5 * (double(r->t[i]) + double(r->t[i + 1]));
       const Vec3 x = ray.at(static_cast<float>(t)), to_light = pivot.position - x;
       const double r2 = double(length_squared(to_light)), cosine = double(dot(ray.direction, to_light)) / std::sqrt(r2);
@@ -94,6 +96,7 @@ TEST(ProductSampling, TheTotalIsTheUnshadowedLightOfTheRay) {
     EXPECT_NEAR(product.total() / expected, 1, 1e-4);
   };
   expect_total(lamp(position), [](double) { return 1.0; });
+  expect_total(lamp(position), [](double) { return 1.0; }, {4.2f, 4.6f});  // far from the foot: what is not lit is more
   LightPivot flat = lamp(position);
   flat.normal = {-1, 0, 0};
   expect_total(flat, [&](double t) {
