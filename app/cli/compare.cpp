@@ -16,12 +16,23 @@
 namespace brume {
 namespace {
 
+/// A picture with values that are no numbers cannot be compared.
+Result<Image> checked(Image image, const std::string& path) {
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (!is_finite(image.at(x, y)))
+        return bad_input("found a value that is not a finite number at pixel (" + std::to_string(x) + ", " +
+                             std::to_string(y) + "), expected numbers everywhere",
+                         {path, 0, 0, ""});
+  return image;
+}
+
 /// Scene-linear. A PNG's bytes are taken as sRGB.
 Result<Image> read_picture(const std::string& path) {
   if (lower_case_extension(path) != ".png") {
     auto file = read_exr(path);
     if (!file) return file.error();
-    return std::move(file->image);
+    return checked(std::move(file->image), path);
   }
   const auto file = read_png(path);
   if (!file) return file.error();
@@ -75,13 +86,15 @@ Result<ExitCode> run_compare(const CompareOptions& options) {
   bool holds = true;
   for (const Metric* metric : *list) {
     const auto value = metric->measure(*test, *reference, options.exposure);
-    if (!value) {
+    if (!value && (!options.metrics.empty() || metric->key == "rmse")) {
       Error error = value.error();
       if (error.source.file.empty()) error.source.file = options.test;
       return error;
     }
-    json[metric->key] = *value;
-    rows.push_back({metric->key, short_number(*value, 6), metric->unit, metric->doc});
+    // Asked for all, one that these pictures do not have (black has no relative bias) is left empty.
+    json[metric->key] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+    rows.push_back({metric->key, value ? short_number(*value, 6) : "-", metric->unit, metric->doc});
+    if (!value) continue;
     holds = !options.threshold || std::abs(*value) <= *options.threshold;
   }
   if (!options.output.empty())

@@ -46,6 +46,16 @@ TEST_F(CompareCommand, PrintsTheMetricsAndTheirNumbers) {
   EXPECT_EQ(text.out.find("rmse"), std::string::npos) << text.out;
 }
 
+TEST_F(CompareCommand, WhatABlackReferenceLeavesUndefinedIsLeftEmpty) {
+  ASSERT_TRUE(write_exr(path("black.exr"), Image(8, 4)));
+  const Outcome o = run({"compare", "test.exr", "black.exr", "--json"});
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  const auto json = nlohmann::json::parse(o.out);
+  EXPECT_TRUE(json["relative_mean_bias"].is_null());
+  EXPECT_NEAR(json["mean_bias"], 0.625, 1e-6);
+  expect_refused({"compare", "test.exr", "black.exr", "--metric", "relative_mean_bias"}, "black");
+}
+
 TEST_F(CompareCommand, ExitCodeThreeBeyondTheThreshold) {
   EXPECT_EQ(run({"compare", "test.exr", "reference.exr", "--metric", "rmse", "--threshold", "0.1"}).exit_code, 3);
   EXPECT_EQ(run({"compare", "test.exr", "reference.exr", "--metric", "rmse", "--threshold", "0.2"}).exit_code, 0);
@@ -78,6 +88,7 @@ TEST_F(CompareCommand, APngIsTakenAsSrgb) {
 TEST_F(CompareCommand, RefusesWhatCannotBeCompared) {
   expect_refused({"compare", "small.exr", "reference.exr"}, "small.exr: ");
   expect_refused({"compare", "nan.exr", "reference.exr"}, "nan.exr: ");
+  expect_refused({"compare", "reference.exr", "nan.exr", "--metric", "flip"}, "nan.exr: ");
   expect_refused({"compare", "missing.exr", "reference.exr"}, "missing.exr: ");
   expect_refused({"compare", "test.exr", "reference.exr", "--metric", "beauty"}, "--metric: found \"beauty\"");
   expect_refused({"compare", "test.exr", "reference.exr", "-o", "difference.jpg"}, "difference.jpg");
