@@ -38,8 +38,8 @@ std::uint32_t laine_karras_round(std::uint32_t x, std::uint32_t seed) {
 
 /// Owen scrambling of a bit-reversed number: every bit is flipped by a hash of the bits below it.
 /// Laine & Karras 2011, "Stratified Sampling for Stochastic Transparency", section 3.1; this hash by Vegdahl 2021,
-/// "Building a Better LK Hash". Two rounds: after one, some pairs of dimensions are correlated. Bit k of the result
-/// knows the lowest bits of the seed only, so the rounds must not have the same ones.
+/// "Building a Better LK Hash". Two rounds: after one, some pairs of dimensions are correlated in their first digits.
+/// Bit k of the result knows the lowest bits of the seed only, so the rounds must not have the same ones.
 std::uint32_t laine_karras(std::uint32_t x, std::uint32_t seed) {
   for (int round = 0; round < 2; ++round, seed = std::rotl(seed, 15) * 0x9e3779b9u) x = laine_karras_round(x, seed);
   return x;
@@ -105,8 +105,8 @@ const std::array<BlockDigits, Sampler::kJointDimensions>& block_digits() {
   static const auto digits = [] {
     std::array<BlockDigits, Sampler::kJointDimensions> all{};
     for (std::size_t d = 0; d < all.size(); ++d) {
-      // Columns of a 4x4 matrix modulo 2 of which the upper left quarter and the lower right one are invertible; the
-      // upper right one is free, the lower left one too.
+      // Columns of a 4x4 matrix modulo 2 of which the upper left quarter and the lower right one are invertible, the
+      // lower left one is 0 and the upper right one free.
       const std::uint64_t bits = mix(0x6272756d65ull + d);
       constexpr std::uint32_t kInvertible[][2] = {{1, 2}, {2, 1}, {1, 3}, {3, 1}, {2, 3}, {3, 2}};
       const auto& upper = kInvertible[bits % 6];
@@ -206,7 +206,8 @@ std::uint64_t Sampler::dimension_key(std::uint64_t key, Decision decision, int b
   return combine(key, dimension);
 }
 
-/// The pixel's own scrambling, but for the place of the first pass, of which the first digits are the block's to give.
+/// The pixel's own scrambling, whose first digits are flipped by random bits, so that one round is enough for the
+/// others; but for the place of the first pass, of which the first digits are the block's to give.
 std::uint32_t Sampler::joint_bits(std::size_t dimension, std::uint32_t pixel_key, std::uint32_t block_key) const {
   constexpr std::uint32_t kFirst = (1u << kBlockDigits) - 1;
   const std::uint32_t x = point_[dimension];

@@ -81,9 +81,8 @@ std::vector<Param> path_params() {
           .says("Scattered rays traced per camera ray; 0 is single scattering, B gives orders 1 to B + 1 of the light "
                 "of lamps."),
       param::flag("russian_roulette", "Russian roulette", true)
-          .says("Ends faint paths early, from the third bounce on, and leaves out shadow rays to lights too faint to "
-                "see, "
-                "without changing the mean.")};
+          .says("Ends faint paths early, from the third bounce on, and where shadow rays are marched leaves out those "
+                "to lights too faint to see, without changing the mean.")};
 }
 
 std::vector<Param> random_params() {
