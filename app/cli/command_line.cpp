@@ -153,8 +153,6 @@ Command make_bench(CLI::App& root) {
 
 Command make_compare(CLI::App& root) {
   auto o = std::make_shared<CompareOptions>();
-  std::string keys;
-  for (const Metric& m : metrics()) keys += (keys.empty() ? "" : ", ") + m.key;
   CLI::App* app = add_command(root, "compare", "Tells how far one picture is from another",
                               "TEST REFERENCE [--metric METRIC] [OPTIONS]",
                               "Pictures are .exr, or .png taken as sRGB. Exit code 3: beyond the threshold.\n\n"
@@ -162,7 +160,7 @@ Command make_compare(CLI::App& root) {
                               "  brume compare smoke.exr reference.exr --metric rmse --threshold 0.01");
   app->add_option("TEST", o->test, "Picture that is judged")->required()->option_text(" ");
   app->add_option("REFERENCE", o->reference, "Picture that is right")->required()->option_text(" ");
-  app->add_option("--metric", o->metrics, "One of " + keys + "\n(default: all; may be repeated)")
+  app->add_option("--metric", o->metrics, "One of " + join(metric_keys()) + "\n(default: all; may be repeated)")
       ->option_text("METRIC")
       ->allow_extra_args(false);
   app->add_option("-o,--output", o->output, "Writes what a person would see of the difference (FLIP)")

@@ -6,7 +6,6 @@
 #include "app/cli/console.h"
 #include "app/cli/output_file.h"
 #include "app/cli/text_table.h"
-#include "renderer/analysis/flip.h"
 #include "renderer/analysis/metric.h"
 #include "renderer/core/input_file.h"
 #include "renderer/film/display_transform.h"
@@ -45,14 +44,12 @@ Result<Image> read_picture(const std::string& path) {
 
 Result<std::vector<const Metric*>> chosen(const CompareOptions& options) {
   std::vector<const Metric*> list;
-  std::vector<std::string> known;
-  for (const Metric& m : metrics()) {
-    known.push_back(m.key);
-    if (options.metrics.empty()) list.push_back(&m);
-  }
+  if (options.metrics.empty())
+    for (const Metric& m : metrics()) list.push_back(&m);
   for (const std::string& key : options.metrics) {
     const Metric* metric = find_metric(key);
-    if (!metric) return bad_input("found \"" + key + "\", expected one of " + join(known), {"", 0, 0, "--metric"});
+    if (!metric)
+      return bad_input("found \"" + key + "\", expected one of " + join(metric_keys()), {"", 0, 0, "--metric"});
     list.push_back(metric);
   }
   if (options.threshold && list.size() != 1)
@@ -63,8 +60,7 @@ Result<std::vector<const Metric*>> chosen(const CompareOptions& options) {
 
 /// What a person would see, as colours from black to pale yellow.
 Result<void> write_difference(const CompareOptions& options, const Image& test, const Image& reference) {
-  const DisplaySettings display{.exposure_stops = options.exposure};
-  const auto seen = flip(to_display(test, display), to_display(reference, display));
+  const auto seen = flip_at(test, reference, options.exposure);
   if (!seen) return seen.error();
   return write_png(options.output, heat_map(*seen));
 }

@@ -2,17 +2,19 @@
 
 #include <algorithm>
 
-#include "renderer/analysis/flip.h"
 #include "renderer/analysis/metrics.h"
 #include "renderer/film/display_transform.h"
 
 namespace brume {
+Result<FlipResult> flip_at(const Image& test, const Image& reference, float exposure) {
+  const DisplaySettings display{.exposure_stops = exposure};
+  return flip(to_display(test, display), to_display(reference, display));
+}
+
 namespace {
 
-/// LDR-FLIP of the pictures as a display shows them at an exposure.
-Result<double> flip_at(const Image& test, const Image& reference, float exposure) {
-  const DisplaySettings display{.exposure_stops = exposure};
-  const auto result = flip(to_display(test, display), to_display(reference, display));
+Result<double> mean_flip(const Image& test, const Image& reference, float exposure) {
+  const auto result = flip_at(test, reference, exposure);
   if (!result) return result.error();
   return result->mean;
 }
@@ -33,8 +35,14 @@ const std::vector<Metric>& metrics() {
        "Median over tiles of their root mean squared error, which fireflies in less than half of them cannot move.",
        [](const Image& t, const Image& r, float) { return median_of_tiles(t, r); }},
       {"flip", "FLIP", "", "The difference that a person sees who flips between the pictures on a monitor, 0 to 1.",
-       flip_at}};
+       mean_flip}};
   return all;
+}
+
+std::vector<std::string> metric_keys() {
+  std::vector<std::string> keys;
+  for (const Metric& m : metrics()) keys.push_back(m.key);
+  return keys;
 }
 
 const Metric* find_metric(const std::string& key) {

@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/core/error.h"
-#include "renderer/film/image.h"
+#include "renderer/analysis/flip.h"
 
 namespace brume {
 
@@ -22,7 +21,12 @@ struct Metric {
 /// rmse, relative_mse, mean_bias, relative_mean_bias, median_of_tiles, flip.
 const std::vector<Metric>& metrics();
 
+std::vector<std::string> metric_keys();
+
 /// Null when there is none of that name.
 const Metric* find_metric(const std::string& key);
+
+/// LDR-FLIP of the pictures as a display shows them at an exposure, in stops.
+Result<FlipResult> flip_at(const Image& test, const Image& reference, float exposure);
 
 }  // namespace brume
