@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 
-#include "renderer/scene_io/scene_file.h"
 #include "tests/support/scenes.h"
 
 namespace brume {
@@ -13,7 +12,7 @@ namespace {
 /// Mean over the pixels of the variance of a sample, without the one pixel in fifty where it is highest: next to a lamp
 /// a few fireflies would decide.
 double trimmed_variance(const std::string& mode, const char* lamp_at) {
-  Node description = *read_scene_file(BRUME_SOURCE_DIR "/scenes/smoke.json", scene_family());
+  Node description = shipped_scene("smoke");
   set(description, "render.sampler", "independent");
   set(description, "render.bounces", "0");
   set(description, "render.light_samples", "1");  // with more the edges of the smoke inside the pixels decide

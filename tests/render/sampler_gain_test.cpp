@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "renderer/scene_io/scene_file.h"
 #include "tests/support/scenes.h"
 
 namespace brume {
@@ -12,7 +11,7 @@ namespace {
 constexpr int kWidth = 64, kHeight = 64, kBlock = 4;
 
 Film rendered(const char* sampler, int passes, int seed) {
-  Node description = *read_scene_file(BRUME_SOURCE_DIR "/scenes/smoke.json", scene_family());
+  Node description = shipped_scene("smoke");
   set(description, "render.sampler", sampler);
   set(description, "render.seed", std::to_string(seed));
   set(description, "render.bounces", "0");

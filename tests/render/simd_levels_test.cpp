@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "renderer/core/simd.h"
-#include "renderer/scene_io/scene_file.h"
 #include "tests/support/scenes.h"
 
 namespace brume {
@@ -32,11 +31,9 @@ bool agree(const Film& a, const Film& b, int x, int y) {
 }
 
 TEST_P(SimdLevels, RenderTheSamePictures) {
-  const std::string file = std::string(BRUME_SOURCE_DIR "/scenes/") + GetParam() + ".json";
-  auto description = read_scene_file(file, scene_family());
-  ASSERT_TRUE(description) << description.error().to_string();
-  set(*description, "render.russian_roulette", "false");
-  const auto scene = committed(*description);
+  Node description = shipped_scene(GetParam());
+  set(description, "render.russian_roulette", "false");
+  const auto scene = committed(description);
   const std::vector<std::string> levels = simd_levels();
   const Film best = picture_at(levels[0], *scene);
   for (const std::string& level : levels) {

@@ -5,6 +5,7 @@
 
 #include "renderer/lights/registry.h"
 #include "renderer/scene/volume.h"
+#include "renderer/scene_io/scene_file.h"
 #include "renderer/surfaces/registry.h"
 
 namespace brume {
@@ -38,6 +39,10 @@ Node empty_scene() {
   set(scene, "render.distance_sampling", "mis");
   set(scene, "render.light_samples", "1");
   return scene;
+}
+
+Node shipped_scene(const std::string& name) {
+  return must(read_scene_file(BRUME_SOURCE_DIR "/scenes/" + name + ".json", scene_family()));
 }
 
 void set(Node& node, const std::string& path, const std::string& text) { must(set_by_path(node, path, text)); }

@@ -13,6 +13,9 @@ namespace brume {
 /// An empty scene description: default camera and render settings, no volume, no light.
 Node empty_scene();
 
+/// A scene that ships ("smoke"), from scenes/. One that cannot be read ends the program.
+Node shipped_scene(const std::string& name);
+
 /// Sets by path from text, as --set does ("render.bounces", "3"). A refusal ends the program: tests know their keys.
 void set(Node& node, const std::string& path, const std::string& text);
 

@@ -5,15 +5,15 @@
 
 #include "renderer/engine/engine.h"
 #include "renderer/integrators/registry.h"
-#include "renderer/scene_io/scene_file.h"
+#include "tests/support/scenes.h"
 
 namespace brume {
 namespace {
 
 std::shared_ptr<const Scene> smoke(SceneCache& cache, std::uint64_t generation, int bounces) {
-  auto description = read_scene_file(BRUME_SOURCE_DIR "/scenes/smoke.json", scene_family());
-  static_cast<void>(description->child("render").set("bounces", std::int64_t{bounces}).ok());
-  return *commit(*description, cache, {.generation = generation});
+  Node description = shipped_scene("smoke");
+  static_cast<void>(description.child("render").set("bounces", std::int64_t{bounces}).ok());
+  return *commit(description, cache, {.generation = generation});
 }
 
 /// Edit to first coarse picture while the engine works on full passes of 1280x720: giving up the pass under way, the

@@ -2,14 +2,13 @@
 #include <benchmark/benchmark.h>
 
 #include "renderer/integrators/registry.h"
-#include "renderer/scene_io/scene_file.h"
 #include "tests/support/scenes.h"
 
 namespace brume {
 namespace {
 
 void camera_rays(benchmark::State& state, const std::string& integrator, const std::string& distance_sampling) {
-  Node description = *read_scene_file(BRUME_SOURCE_DIR "/scenes/smoke.json", scene_family());
+  Node description = shipped_scene("smoke");
   description = with_integrator(std::move(description), integrator);
   if (!distance_sampling.empty()) set(description, "render.distance_sampling", distance_sampling);
   set(description, "render.light_samples", "2");

@@ -7,7 +7,7 @@
 #include "renderer/march/product_sampling.h"
 #include "renderer/march/shadow_march.h"
 #include "renderer/phase/henyey_greenstein.h"
-#include "renderer/scene_io/scene_file.h"
+#include "tests/support/scenes.h"
 
 namespace brume {
 namespace {
@@ -22,7 +22,7 @@ struct Setup {
   MarchSettings settings{1, 0.5f, 0};
 
   explicit Setup(const benchmark::State& state) {
-    scene = *commit(*read_scene_file(BRUME_SOURCE_DIR "/scenes/smoke.json", scene_family()), cache, {});
+    scene = *commit(shipped_scene("smoke"), cache, {});
     const Vec3d middle = scene->bounds.center(), size = scene->bounds.high - scene->bounds.low;
     ray = {Vec3(middle - Vec3d(0.5 * size.x, 0, 0)), {1, 0, 0}, {0, static_cast<float>(size.x)}};
     settings.step = static_cast<float>(size.x) / static_cast<float>(state.range(0));

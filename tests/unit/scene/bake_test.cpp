@@ -51,11 +51,13 @@ std::vector<float> densities(const Scene& scene, const Affined& world_from_local
   return out;
 }
 
-Node cloud_scene() {
+/// @param baked_voxel  empty: not baked
+Node cloud_scene(const std::string& baked_voxel = "") {
   Node scene = empty_scene();
   add_volume(scene, "cloud");
   set(scene, "volumes.0.bounds.min", "-1.1,-0.9,-0.5");
   set(scene, "volumes.0.bounds.max", "1.1,0.9,0.7");
+  if (!baked_voxel.empty()) set(scene, "volumes.0.baked", "true"), set(scene, "volumes.0.baked_voxel", baked_voxel);
   return scene;
 }
 
@@ -116,9 +118,7 @@ TEST(Bake, OnlyWhatIsBakedIsBakedAgain) {
 
 TEST(Bake, NeitherAnotherLightNorAnotherPlaceBakesAgain) {
   SceneCache cache;
-  Node scene = cloud_scene();
-  set(scene, "volumes.0.baked", "true");
-  set(scene, "volumes.0.baked_voxel", "0.05");
+  Node scene = cloud_scene("0.05");
   const auto first = commit(scene, cache, {});
   ASSERT_TRUE(first);
   int baked = 0;
@@ -136,9 +136,7 @@ TEST(Bake, NeitherAnotherLightNorAnotherPlaceBakesAgain) {
 
 TEST(Bake, VoxelsThatDoNotFitAreRefusedAndAnEmptyCloudIsNot) {
   SceneCache cache;
-  Node scene = cloud_scene();
-  set(scene, "volumes.0.baked", "true");
-  set(scene, "volumes.0.baked_voxel", "0.000001");
+  Node scene = cloud_scene("0.000001");
   const auto refused = commit(scene, cache, {});
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().to_string().find("volumes.0.baked_voxel"), std::string::npos)
