@@ -56,8 +56,9 @@ class AppFixture : public testing::Test {
     if (!session_->idle()) return false;
     if (!session_->scene()) return true;  // nothing to render, or nothing that can be
     if (!session_->problem().empty()) return true;
-    const auto picture = session_->picture();
-    return session_->up_to_date() && (picture->finished || (samples_ == kEndless && picture->divisor == 1));
+    if (!session_->up_to_date()) return false;
+    const auto picture = session_->picture();  // after the question: before it there may have been none
+    return picture->finished || (samples_ == kEndless && picture->divisor == 1);
   }
 
   /// Mean of all channels of the picture that is shown.
