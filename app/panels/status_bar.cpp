@@ -39,9 +39,8 @@ void draw_status_bar(const Session& session, bool measured) {
   item(measured ? formatted("%.1f s", s.wall_seconds) : "- s", "Time spent on this picture.");
   item(measured && s.wall_seconds > 0 ? formatted("%.2f Mrays/s", 1e-6 * rays / s.wall_seconds) : "- Mrays/s",
        "Camera, scattered and shadow rays per second.");
-  item(picture->divisor > 1 || s.samples_per_pixel < 2 ? "noise -"
-                                                       : "noise " + formatted("%.2f %%", 100 * picture->noise),
-       "Estimated noise of the whole picture, relative to its mean.");
+  item(picture->divisor > 1 ? "noise -" : "noise " + formatted("%.2f %%", 100 * picture->noise),
+       "Estimated noise of the whole picture, relative to its mean: from a few pixels that are rendered twice.");
   item(measured ? std::to_string(s.threads) + (s.threads == 1 ? " thread" : " threads") : "- threads",
        "Threads that render.");
   item("pool " + formatted("%.1f KB", static_cast<double>(s.pool_high_water_bytes) / 1024),

@@ -5,6 +5,8 @@
 namespace brume {
 namespace {
 
+constexpr std::uint64_t kTwinSeed = 0x7477696E00000000;  // above the seeds that a scene can name
+
 struct Grid {
   int width, height;
   int columns() const { return (width + kTileSize - 1) / kTileSize; }
@@ -46,9 +48,12 @@ bool render_pass(const Scene& scene, const Integrator& integrator, std::uint32_t
                  const Cancelled& cancelled) {
   const Grid grid{film.width(), film.height()};
   const Sampler pass(scene.render.sampler, scene.render.seed, 0, sample);
+  const Sampler twin_pass(scene.render.sampler, scene.render.seed ^ kTwinSeed, 0, sample);
   return for_each_pixel(grid, pool, cancelled, [&](int x, int y, Worker& worker) {
     if (!film.add_sample(x, y, sample_pixel(scene, integrator, grid, x, y, pass, worker)))
       ++worker.statistics.non_finite;
+    if (Film::has_twin(x, y))
+      film.add_twin_sample(x, y, sample_pixel(scene, integrator, grid, x, y, twin_pass, worker));
   });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "renderer/core/check.h"
 
@@ -55,8 +56,23 @@ bool Film::add_sample(int x, int y, Color sample) {
     p.mean[c] += delta[c] * inverse_count;
     p.m2[c] += delta[c] * delta[c] * (1 - inverse_count);
   }
-  const double delta_luminance = luminance(delta);
-  p.m2_luminance += delta_luminance * delta_luminance * (1 - inverse_count);
+  return true;
+}
+
+bool Film::has_twin(int x, int y) {
+  constexpr std::uint32_t kBlock = 8;
+  const std::uint32_t block =
+      (static_cast<std::uint32_t>(x) / kBlock) * 0x9E3779B1u ^ (static_cast<std::uint32_t>(y) / kBlock) * 0x85EBCA77u;
+  const std::uint32_t place = (block ^ block >> 15) * 0x2C1B3C6Du >> 26;  // top bits of a product: the best mixed
+  return place == static_cast<std::uint32_t>(y) % kBlock * kBlock + static_cast<std::uint32_t>(x) % kBlock;
+}
+
+bool Film::add_twin_sample(int x, int y, Color sample) {
+  BRUME_DCHECK(has_twin(x, y), ==, true);
+  if (!is_finite(sample)) return false;
+  Pixel& p = pixels_[static_cast<std::size_t>(y) * width_ + x];
+  p.twin_count += 1;
+  p.twin_luminance += (static_cast<double>(brume::luminance(sample)) - p.twin_luminance) / p.twin_count;
   return true;
 }
 
@@ -100,23 +116,25 @@ Film::NoiseSums Film::noise_of_row(int y) const {
   for (int x = 0; x < width_; ++x) {
     const Pixel& p = pixel(x, y);
     if (p.count == 0) continue;
-    sums.luminance += luminance(p.mean);
-    ++sums.sampled_pixels;
-    if (p.count < 2) continue;
-    sums.deviation += std::sqrt(p.m2_luminance * variance_factor(p.count));
-    ++sums.judged_pixels;
+    const double own = luminance(p.mean);
+    sums.luminance += own;
+    ++sums.pixels;
+    if (p.twin_count == 0) continue;
+    sums.difference += std::abs(own - p.twin_luminance);
+    ++sums.pairs;
   }
   return sums;
 }
 
 void Film::NoiseSums::add(const NoiseSums& other) {
-  luminance += other.luminance, deviation += other.deviation;
-  sampled_pixels += other.sampled_pixels, judged_pixels += other.judged_pixels;
+  luminance += other.luminance, difference += other.difference;
+  pixels += other.pixels, pairs += other.pairs;
 }
 
 double Film::NoiseSums::estimate() const {
-  if (judged_pixels == 0 || !(luminance > 0)) return 0;
-  return deviation / static_cast<double>(judged_pixels) / (luminance / static_cast<double>(sampled_pixels));
+  if (pairs == 0 || !(luminance > 0)) return 0;
+  const double half_root_pi = std::sqrt(std::numbers::pi) / 2;
+  return half_root_pi * difference / static_cast<double>(pairs) / (luminance / static_cast<double>(pixels));
 }
 
 double Film::noise_estimate() const {

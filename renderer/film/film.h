@@ -53,17 +53,25 @@ class Film {
   /// Into an image that is kept between calls: no allocation unless the size has changed.
   void mean_image(Image& image) const;
 
-  /// Noise of the whole picture relative to its brightness (0.05 reads as "5 %"): mean over pixels of the standard
-  /// error of the luminance, divided by the mean luminance. It falls as 1/sqrt(samples per pixel). A mean of deviations
-  /// and not of variances, because one firefly next to a lamp would outweigh all the pixels that people look at.
-  /// Pixels with fewer than two samples tell nothing of their variance and are left out of its mean.
-  /// @return 0 when no pixel has two samples or when the picture is black.
+  /// Whether this pixel is one of the few, one in each block of 8x8 at a place of its own, that are rendered twice.
+  /// Its twin is rendered with other random numbers and never shown: only from independent randomisations can the
+  /// error of low-discrepancy samples be told, whose scatter is much larger than the error of their mean (Owen 1997,
+  /// "Monte Carlo Variance of Scrambled Net Quadrature").
+  static bool has_twin(int x, int y);
+  /// add_sample() for the twin of the pixel (x, y).
+  bool add_twin_sample(int x, int y, Color sample);
+
+  /// Noise of the whole picture relative to its brightness (0.05 reads as "5 %"): standard deviation of a pixel's
+  /// luminance, mean over the pixels that have a twin, divided by the mean luminance. From |a - b| of a pixel and its
+  /// twin, whose mean is 2/sqrt(pi) standard deviations of either where the error is normal. A mean of absolute values
+  /// and not of squares, because one firefly next to a lamp would outweigh all the pixels that people look at.
+  /// @return 0 when no twin has a sample or when the picture is black.
   double noise_estimate() const;
 
   /// Both of them row by row; different rows at the same time.
   struct NoiseSums {
-    double luminance = 0, deviation = 0;
-    std::size_t sampled_pixels = 0, judged_pixels = 0;
+    double luminance = 0, difference = 0;
+    std::size_t pixels = 0, pairs = 0;
 
     void add(const NoiseSums& other);
     double estimate() const;
@@ -73,13 +81,12 @@ class Film {
   void mean_row(int y, Image& image) const;
 
  private:
-  /// One cache line. Luminance has a sum of its own: the channels are correlated, so the variance of a luminance does
-  /// not follow from the variances of the channels.
+  /// One cache line.
   struct alignas(64) Pixel {
     double mean[3] = {};
-    double m2[3] = {};  ///< sum of squared deviations from the mean
-    double m2_luminance = 0;
-    std::uint32_t count = 0;
+    double m2[3] = {};          ///< sum of squared deviations from the mean
+    double twin_luminance = 0;  ///< mean of the twin's samples
+    std::uint32_t count = 0, twin_count = 0;
   };
 
   const Pixel& pixel(int x, int y) const { return pixels_[static_cast<std::size_t>(y) * width_ + x]; }

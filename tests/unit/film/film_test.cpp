@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <thread>
 #include <vector>
@@ -51,7 +52,6 @@ TEST(Film, VarianceOfConstantSamplesIsZero) {
   for (int i = 0; i < 1000; ++i) film.add_sample(0, 0, {0.1f, 123.456f, 1e-20f});
   EXPECT_EQ(film.mean(0, 0), Color(0.1f, 123.456f, 1e-20f));
   EXPECT_EQ(film.variance(0, 0), Color(0));
-  EXPECT_EQ(film.noise_estimate(), 0);
 }
 
 TEST(Film, VarianceOfTheMeanOfTwoSamplesIsAQuarterOfTheirSquaredDistance) {
@@ -129,59 +129,73 @@ TEST(Film, BitsDoNotDependOnTheNumberOfThreads) {
 
   EXPECT_EQ(shared.mean_image(), alone.mean_image());
   EXPECT_EQ(shared.variance_image(), alone.variance_image());
-  EXPECT_EQ(shared.noise_estimate(), alone.noise_estimate());
+}
+
+/// The pixels that have a twin among the first width x height.
+std::vector<std::pair<int, int>> twins(int width, int height) {
+  std::vector<std::pair<int, int>> found;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (Film::has_twin(x, y)) found.emplace_back(x, y);
+  return found;
+}
+
+TEST(Film, EveryBlockHasOneTwinAndTheirPlacesAreSpreadOut) {
+  std::vector<int> at_place(64);
+  for (int by = 0; by < 64; ++by)
+    for (int bx = 0; bx < 64; ++bx) {
+      int in_block = 0;
+      for (int place = 0; place < 64; ++place)
+        if (Film::has_twin(8 * bx + place % 8, 8 * by + place / 8)) ++in_block, ++at_place[std::size_t(place)];
+      ASSERT_EQ(in_block, 1) << bx << " " << by;
+    }
+  // 4096 blocks, 64 at each place, standard deviation 8.
+  for (const int times : at_place) EXPECT_NEAR(times, 64, 5 * 8);
 }
 
 TEST(Film, NoiseEstimateIsThatOfItsDefinition) {
-  // Variances of the mean 1 and 4, means 2 and 3: ((1 + 2) / 2) / ((2 + 3) / 2) = 0.6.
-  Film film(2, 1);
-  film.add_sample(0, 0, Color(1));
-  film.add_sample(0, 0, Color(3));
-  film.add_sample(1, 0, Color(1));
-  film.add_sample(1, 0, Color(5));
-  EXPECT_NEAR(film.noise_estimate(), 0.6, 1e-6);
-}
-
-TEST(Film, NoiseEstimateKnowsThatChannelsAreCorrelated) {
-  // Red up while green goes down by the ratio of their weights: the luminance does not change at all.
-  Film opposed(1, 1), together(1, 1);
-  const float step = 0.2126f / 0.7152f;
-  opposed.add_sample(0, 0, {2, 1, 1});
-  opposed.add_sample(0, 0, {1, 1 + step, 1});
-  together.add_sample(0, 0, {1, 1, 1});
-  together.add_sample(0, 0, {2, 1 + step, 1});
-  EXPECT_NEAR(opposed.variance(0, 0).r, together.variance(0, 0).r, 1e-7f);
-  EXPECT_NEAR(opposed.noise_estimate(), 0, 1e-7);
-  EXPECT_GT(together.noise_estimate(), 0.1);
+  const auto at = twins(16, 8);
+  ASSERT_EQ(at.size(), 2u);
+  Film film(16, 8);
+  film.add_sample(at[0].first, at[0].second, Color(1));
+  film.add_sample(at[0].first, at[0].second, Color(3));
+  film.add_twin_sample(at[0].first, at[0].second, Color(5));
+  film.add_sample(at[1].first, at[1].second, Color(2));
+  film.add_twin_sample(at[1].first, at[1].second, Color(1));
+  film.add_twin_sample(at[1].first, at[1].second, Color(2));
+  // Differences 3 and 0.5, means 2 and 2.
+  EXPECT_NEAR(film.noise_estimate(), std::sqrt(std::numbers::pi) / 2 * 1.75 / 2, 1e-6);
+  film.clear();
+  EXPECT_EQ(film.noise_estimate(), 0);
 }
 
 TEST(Film, NoiseEstimatePredictsTheErrorOfThePicture) {
-  // Exponential samples of mean 1 have variance 1: after n samples the relative noise is 1/sqrt(n).
+  // Means of many exponential samples of mean 1 are nearly normal: after n samples the relative noise is 1/sqrt(n).
   std::mt19937 random(3);
   std::exponential_distribution<float> value(1);
-  constexpr int kSide = 64;
+  constexpr int kSide = 256, kSamples = 64;
   Film film(kSide, kSide);
-  for (const int samples : {16, 64}) {
-    film.clear();
-    for (int i = 0; i < samples; ++i)
-      for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) film.add_sample(x, y, Color(value(random)));
-    // The root of a sample variance is low by (kurtosis 9 - 1) / (8 n) on average (delta method, first order), so the
-    // estimate approaches 1 from below as 1 - 1/n. Its own deviation: sqrt(8 / n) / 2 / sqrt(4096) <= 0.0055, four
-    // times that, and 0.02 for the terms of higher order.
-    EXPECT_NEAR(film.noise_estimate() * std::sqrt(samples), 1 - 1.0 / samples, 0.042) << samples;
-  }
+  for (const auto& [x, y] : twins(kSide, kSide))
+    for (int i = 0; i < kSamples; ++i) {
+      film.add_sample(x, y, Color(value(random)));
+      film.add_twin_sample(x, y, Color(value(random)));
+    }
+  // 1024 pairs; |a - b| has a relative deviation of 0.76: 0.024, taken three times.
+  EXPECT_NEAR(film.noise_estimate() * std::sqrt(kSamples), 1, 0.072);
 }
 
-TEST(Film, NoiseEstimateIsZeroWithoutSamplesOrLight) {
-  Film film(2, 1);
-  EXPECT_EQ(film.noise_estimate(), 0);
+TEST(Film, NoiseEstimateIsZeroWithoutTwinsOrLight) {
   EXPECT_EQ(Film().noise_estimate(), 0);
-  film.add_sample(0, 0, Color(1));  // one sample: unknown
+  const auto [x, y] = twins(8, 8).front();
+  Film film(8, 8);
   EXPECT_EQ(film.noise_estimate(), 0);
-  Film black(1, 1);
-  black.add_sample(0, 0, Color(-1));
-  black.add_sample(0, 0, Color(1));
+  film.add_sample(x, y, Color(1));  // no twin: unknown
+  EXPECT_EQ(film.noise_estimate(), 0);
+  EXPECT_FALSE(film.add_twin_sample(x, y, Color(std::numeric_limits<float>::quiet_NaN())));
+  EXPECT_EQ(film.noise_estimate(), 0);
+  Film black(8, 8);
+  black.add_sample(x, y, Color(0));
+  black.add_twin_sample(x, y, Color(0));
   EXPECT_EQ(black.noise_estimate(), 0);
 }
 
