@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 
+#include "renderer/analysis/comparable.h"
 #include "renderer/film/display_transform.h"
 
 namespace brume {
@@ -327,12 +329,7 @@ Result<FlipResult> flip(const Image8& test, const Image8& reference, const FlipS
   // Below 4 the feature filters have no neighbours left to weigh; above 1000 they are wider than most pictures.
   if (!(ppd >= 4 && ppd <= 1000))
     return bad_input("found " + std::to_string(ppd) + " pixels per degree, expected 4 to 1000");
-  if (test.empty() || reference.empty() || !is_consistent(test) || !is_consistent(reference))
-    return bad_input("found an image without pixels, expected at least one to compare");
-  if (test.width != reference.width || test.height != reference.height)
-    return bad_input("found images of " + std::to_string(test.width) + " x " + std::to_string(test.height) + " and " +
-                     std::to_string(reference.width) + " x " + std::to_string(reference.height) +
-                     " pixels, expected the same extents to compare");
+  if (std::optional<Error> error = not_comparable(test, reference)) return *error;
 
   OpponentImage a = to_opponent(test), b = to_opponent(reference);
   const Features features_a = detect_features(a.y, ppd), features_b = detect_features(b.y, ppd);

@@ -6,29 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "renderer/analysis/comparable.h"
+
 namespace brume {
 namespace {
-
-std::string extents(const Image& image) { return std::to_string(image.width) + " x " + std::to_string(image.height); }
-
-std::optional<Error> find_non_finite(const Image& image, const std::string& which) {
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      if (!is_finite(image.at(x, y)))
-        return bad_input("found a NaN or an infinity in pixel (" + std::to_string(x) + ", " + std::to_string(y) +
-                         ") of the " + which + ", expected finite values");
-  return {};
-}
-
-std::optional<Error> check(const Image& test, const Image& reference) {
-  if (!is_consistent(test) || !is_consistent(reference) || test.empty() || reference.empty())
-    return bad_input("found an image without pixels, expected at least one to compare");
-  if (test.width != reference.width || test.height != reference.height)
-    return bad_input("found images of " + extents(test) + " and " + extents(reference) +
-                     " pixels, expected the same extents to compare");
-  if (std::optional<Error> error = find_non_finite(test, "test image")) return error;
-  return find_non_finite(reference, "reference image");
-}
 
 struct Rectangle {
   int x_begin, y_begin, x_end, y_end;
@@ -52,19 +33,19 @@ double squared_error(double t, double r) { return (t - r) * (t - r); }
 }  // namespace
 
 Result<double> rmse(const Image& test, const Image& reference) {
-  if (std::optional<Error> error = check(test, reference)) return *error;
+  if (std::optional<Error> error = not_comparable(test, reference)) return *error;
   return std::sqrt(mean_over(test, reference, whole(test), squared_error));
 }
 
 Result<double> relative_mse(const Image& test, const Image& reference, double epsilon) {
   if (!(epsilon > 0)) return bad_input("found an epsilon of " + std::to_string(epsilon) + ", expected more than 0");
-  if (std::optional<Error> error = check(test, reference)) return *error;
+  if (std::optional<Error> error = not_comparable(test, reference)) return *error;
   return mean_over(test, reference, whole(test),
                    [&](double t, double r) { return squared_error(t, r) / (r * r + epsilon); });
 }
 
 Result<double> mean_bias(const Image& test, const Image& reference) {
-  if (std::optional<Error> error = check(test, reference)) return *error;
+  if (std::optional<Error> error = not_comparable(test, reference)) return *error;
   return mean_over(test, reference, whole(test), [](double t, double r) { return t - r; });
 }
 
@@ -78,7 +59,7 @@ Result<double> relative_mean_bias(const Image& test, const Image& reference) {
 
 Result<double> median_of_tiles(const Image& test, const Image& reference, int tile_size) {
   if (tile_size < 1) return bad_input("found a tile size of " + std::to_string(tile_size) + ", expected at least 1");
-  if (std::optional<Error> error = check(test, reference)) return *error;
+  if (std::optional<Error> error = not_comparable(test, reference)) return *error;
   const int side = std::min(tile_size, std::max(test.width, test.height));  // no overflow in x + side
   std::vector<double> errors;
   for (int y = 0; y < test.height; y += side)
