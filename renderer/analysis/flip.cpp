@@ -171,21 +171,34 @@ struct OpponentImage {
   Plane y, cx, cz;
 };
 
-OpponentImage to_opponent(const Image8& image) {
-  std::array<float, 256> decoded;
-  for (std::size_t code = 0; code < 256; ++code)
-    decoded[code] = static_cast<float>(srgb_decode(static_cast<double>(code) / 255));
-  OpponentImage result{Plane(image.width, image.height), Plane(image.width, image.height),
-                       Plane(image.width, image.height)};
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      const std::uint8_t* code = image.at(x, y);
-      const Triple xyz = multiply(kRgbToXyz, {decoded[code[0]], decoded[code[1]], decoded[code[2]]});
+/// @param linear_at  linear RGB in [0, 1] of pixel (x, y)
+template <class LinearAt> OpponentImage to_opponent(int width, int height, const LinearAt& linear_at) {
+  OpponentImage result{Plane(width, height), Plane(width, height), Plane(width, height)};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const Triple xyz = multiply(kRgbToXyz, linear_at(x, y));
       result.y.row(y)[x] = 116 * xyz[1] - 16;
       result.cx.row(y)[x] = 500 * (xyz[0] - xyz[1]);
       result.cz.row(y)[x] = 200 * (xyz[1] - xyz[2]);
     }
   return result;
+}
+
+OpponentImage to_opponent(const Image8& image) {
+  std::array<float, 256> decoded;
+  for (std::size_t code = 0; code < 256; ++code)
+    decoded[code] = static_cast<float>(srgb_decode(static_cast<double>(code) / 255));
+  return to_opponent(image.width, image.height, [&](int x, int y) {
+    const std::uint8_t* code = image.at(x, y);
+    return Triple{decoded[code[0]], decoded[code[1]], decoded[code[2]]};
+  });
+}
+
+OpponentImage to_opponent(const Image& image) {
+  return to_opponent(image.width, image.height, [&](int x, int y) {
+    const Color& c = image.at(x, y);
+    return Triple{std::clamp(c.r, 0.0f, 1.0f), std::clamp(c.g, 0.0f, 1.0f), std::clamp(c.b, 0.0f, 1.0f)};
+  });
 }
 
 Triple opponent_to_rgb(float y, float cx, float cz) {
@@ -322,26 +335,20 @@ Features detect_features(const Plane& lightness, double ppd) {
   return {strength(kernels.edge), strength(kernels.point)};
 }
 
-}  // namespace
+// ---- Both together -------------------------------------------------------------------------------------------------
 
-Result<FlipResult> flip(const Image8& test, const Image8& reference, const FlipSettings& settings) {
-  const double ppd = settings.pixels_per_degree;
-  // Below 4 the feature filters have no neighbours left to weigh; above 1000 they are wider than most pictures.
-  if (!(ppd >= 4 && ppd <= 1000))
-    return bad_input("found " + std::to_string(ppd) + " pixels per degree, expected 4 to 1000");
-  if (std::optional<Error> error = not_comparable(test, reference)) return *error;
-
-  OpponentImage a = to_opponent(test), b = to_opponent(reference);
+FlipResult compare(OpponentImage a, OpponentImage b, double ppd) {
   const Features features_a = detect_features(a.y, ppd), features_b = detect_features(b.y, ppd);
   to_perceived(a, ppd);
   to_perceived(b, ppd);
 
-  FlipResult result{test.width, test.height, {}, 0};
-  result.error.reserve(static_cast<std::size_t>(test.width) * test.height);
+  const int width = a.y.width, height = a.y.height;
+  FlipResult result{width, height, {}, 0};
+  result.error.reserve(static_cast<std::size_t>(width) * height);
   const ErrorScale scale;
   double sum = 0;
-  for (int y = 0; y < test.height; ++y)
-    for (int x = 0; x < test.width; ++x) {
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
       const float distance =
           hyab({a.y.row(y)[x], a.cx.row(y)[x], a.cz.row(y)[x]}, {b.y.row(y)[x], b.cx.row(y)[x], b.cz.row(y)[x]});
       const float edge = std::abs(features_a.edge.row(y)[x] - features_b.edge.row(y)[x]);
@@ -354,6 +361,27 @@ Result<FlipResult> flip(const Image8& test, const Image8& reference, const FlipS
     }
   result.mean = sum / static_cast<double>(result.error.size());
   return result;
+}
+
+/// Of pictures of bytes or of light.
+template <class Picture>
+Result<FlipResult> checked_flip(const Picture& test, const Picture& reference, const FlipSettings& settings) {
+  const double ppd = settings.pixels_per_degree;
+  // Below 4 the feature filters have no neighbours left to weigh; above 1000 they are wider than most pictures.
+  if (!(ppd >= 4 && ppd <= 1000))
+    return bad_input("found " + std::to_string(ppd) + " pixels per degree, expected 4 to 1000");
+  if (std::optional<Error> error = not_comparable(test, reference)) return *error;
+  return compare(to_opponent(test), to_opponent(reference), ppd);
+}
+
+}  // namespace
+
+Result<FlipResult> flip(const Image8& test, const Image8& reference, const FlipSettings& settings) {
+  return checked_flip(test, reference, settings);
+}
+
+Result<FlipResult> flip_linear(const Image& test, const Image& reference, const FlipSettings& settings) {
+  return checked_flip(test, reference, settings);
 }
 
 std::array<std::uint8_t, 3> heat_color(float value) {

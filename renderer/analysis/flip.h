@@ -40,6 +40,12 @@ struct FlipResult {
 /// Errors: extents that differ, no pixels, settings out of range. Any thread; 0.4 s for 1280x720 on one core (EPYC).
 Result<FlipResult> flip(const Image8& test, const Image8& reference, const FlipSettings& settings = {});
 
+/// The same of the light that a monitor emits, 1 at most per channel, before any rounding to bytes: for pictures that
+/// a tone mapper has brought to its range. Not of radiance, which has no exposure yet: see flip_at().
+/// @param test, reference  linear, Rec. 709 primaries; values beyond [0, 1] are clamped.
+/// Errors: those of flip(), a NaN or an infinity. Any thread; as fast.
+Result<FlipResult> flip_linear(const Image& test, const Image& reference, const FlipSettings& settings = {});
+
 /// A colour for a value of [0, 1] (clamped; NaN as 0) whose luminance grows with it, so it also reads in black and
 /// white: black, purple, orange, pale yellow. Nine colours of "magma" (van der Walt & Smith 2015, public domain),
 /// straight lines between them.

@@ -372,6 +372,44 @@ TEST(Flip, InputOutOfRangeIsAnError) {
     EXPECT_FALSE(flip(image, image, {ppd})) << ppd;
 }
 
+TEST(FlipLinear, OfDecodedBytesIsFlip) {
+  const Image8 a = busy(33, 21, 1, 60), b = busy(33, 21, 2, 60);
+  const auto light = [](const Image8& image) {
+    Image result(image.width, image.height);
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        for (int c = 0; c < 3; ++c) result.at(x, y)[c] = static_cast<float>(slow::linear(image.at(x, y)[c]));
+    return result;
+  };
+  const auto result = flip_linear(light(a), light(b), {24});
+  ASSERT_TRUE(result);
+  const FlipResult expected = *flip(a, b, {24});
+  for (std::size_t i = 0; i < expected.error.size(); ++i) ASSERT_NEAR(result->error[i], expected.error[i], 3e-4) << i;
+  EXPECT_NEAR(result->mean, expected.mean, 1e-6);
+}
+
+TEST(FlipLinear, SeesWhatRoundingToBytesHides) {
+  // Greys 0.18 and 0.1806 are both code 118.
+  const double mean = flip_linear(Image(4, 4, Color(0.1806f)), Image(4, 4, Color(0.18f)))->mean;
+  const slow::Vector brighter{0.1806, 0.1806, 0.1806}, darker{0.18, 0.18, 0.18};
+  EXPECT_NEAR(mean, slow::color_error(slow::hunt_lab(brighter), slow::hunt_lab(darker)), 1e-4);
+  EXPECT_GT(mean, 0.005);
+}
+
+TEST(FlipLinear, ValuesBeyondAMonitorAreClamped) {
+  EXPECT_EQ(flip_linear(Image(3, 3, Color(7)), Image(3, 3, Color(1)))->mean, 0);
+  EXPECT_EQ(flip_linear(Image(3, 3, Color(-7)), Image(3, 3, Color(0)))->mean, 0);
+}
+
+TEST(FlipLinear, InputOutOfRangeIsAnError) {
+  Image image(2, 1), bad = image;
+  bad.at(1, 0).b = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(flip_linear(bad, image).error().message,
+            "found a NaN or an infinity in pixel (1, 0) of the test image, expected finite values");
+  EXPECT_FALSE(flip_linear(image, Image(1, 2)));
+  EXPECT_FALSE(flip_linear(image, image, {3.9}));
+}
+
 TEST(HeatMap, LuminanceGrowsWithTheValue) {
   double last = -1;
   for (int i = 0; i <= 100; ++i) {
