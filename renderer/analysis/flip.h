@@ -41,7 +41,7 @@ struct FlipResult {
 Result<FlipResult> flip(const Image8& test, const Image8& reference, const FlipSettings& settings = {});
 
 /// The same of the light that a monitor emits, 1 at most per channel, before any rounding to bytes: for pictures that
-/// a tone mapper has brought to its range. Not of radiance, which has no exposure yet: see flip_at().
+/// a tone mapper has brought to its range. Not of radiance, which has no exposure yet: see flip_at() and hdr_flip().
 /// @param test, reference  linear, Rec. 709 primaries; values beyond [0, 1] are clamped.
 /// Errors: those of flip(), a NaN or an infinity. Any thread; as fast.
 Result<FlipResult> flip_linear(const Image& test, const Image& reference, const FlipSettings& settings = {});

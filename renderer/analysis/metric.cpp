@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "renderer/analysis/hdr_flip.h"
 #include "renderer/analysis/metrics.h"
 #include "renderer/film/display_transform.h"
 
@@ -17,6 +18,12 @@ Result<double> mean_flip(const Image& test, const Image& reference, float exposu
   const auto result = flip_at(test, reference, exposure);
   if (!result) return result.error();
   return result->mean;
+}
+
+Result<double> mean_hdr_flip(const Image& test, const Image& reference) {
+  const auto result = hdr_flip(test, reference);
+  if (!result) return result.error();
+  return result->flip.mean;
 }
 
 }  // namespace
@@ -35,7 +42,10 @@ const std::vector<Metric>& metrics() {
        "Median over tiles of their root mean squared error, which fireflies in less than half of them cannot move.",
        [](const Image& t, const Image& r, float) { return median_of_tiles(t, r); }},
       {"flip", "FLIP", "", "The difference that a person sees who flips between the pictures on a monitor, 0 to 1.",
-       mean_flip}};
+       mean_flip},
+      {"hdr_flip", "HDR-FLIP", "",
+       "The largest difference that a person sees at any exposure that the reference asks for, 0 to 1.",
+       [](const Image& t, const Image& r, float) { return mean_hdr_flip(t, r); }}};
   return all;
 }
 

@@ -14,11 +14,11 @@ struct Metric {
   std::string label;  ///< "RMSE"
   std::string unit;   ///< "" where it has none
   std::string doc;    ///< one sentence
-  /// @param test, reference  scene-linear.  @param exposure  stops, for metrics of what is seen; others do not look
+  /// @param test, reference  scene-linear.  @param exposure  stops, for what is seen at one: flip; others do not look
   Result<double> (*measure)(const Image& test, const Image& reference, float exposure);
 };
 
-/// rmse, relative_mse, mean_bias, relative_mean_bias, median_of_tiles, flip.
+/// rmse, relative_mse, mean_bias, relative_mean_bias, median_of_tiles, flip, hdr_flip.
 const std::vector<Metric>& metrics();
 
 std::vector<std::string> metric_keys();

@@ -39,6 +39,8 @@ TEST_F(CompareCommand, PrintsTheMetricsAndTheirNumbers) {
   EXPECT_NEAR(json["median_of_tiles"], 0.25 / std::sqrt(2.0), 1e-9);
   EXPECT_GT(json["flip"], 0.01);
   EXPECT_LT(json["flip"], 0.5);
+  EXPECT_GT(json["hdr_flip"], 0.01);
+  EXPECT_LT(json["hdr_flip"], 0.5);
 
   const Outcome text = run({"compare", "test.exr", "reference.exr", "--metric", "mean_bias"});
   EXPECT_EQ(text.exit_code, 0);
@@ -62,6 +64,17 @@ TEST_F(CompareCommand, ExitCodeThreeBeyondTheThreshold) {
   // A picture that is too dark is as wrong as one that is too bright.
   EXPECT_EQ(run({"compare", "reference.exr", "test.exr", "--metric", "mean_bias", "--threshold", "0.1"}).exit_code, 3);
   expect_refused({"compare", "test.exr", "reference.exr", "--threshold", "0.1"}, "--threshold: found no single metric");
+}
+
+TEST_F(CompareCommand, HdrFlipNeedsNoExposure) {
+  const auto value = [&](const std::string& metric, const std::string& exposure) {
+    const Outcome o = run({"compare", "test.exr", "reference.exr", "--json", "--metric", metric, exposure});
+    return o.exit_code == 0 ? nlohmann::json::parse(o.out)[metric].get<double>() : -1;
+  };
+  EXPECT_GT(value("hdr_flip", "--exposure=0"), 0.01);
+  EXPECT_EQ(value("hdr_flip", "--exposure=4"), value("hdr_flip", "--exposure=0"));
+  EXPECT_GT(value("flip", "--exposure=0"), 0.01);
+  EXPECT_EQ(value("flip", "--exposure=4"), 0);  // both white
 }
 
 TEST_F(CompareCommand, DrawsTheDifference) {
