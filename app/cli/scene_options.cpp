@@ -19,16 +19,16 @@ void resolve_file(Node& description, const std::string& key) {
 
 }  // namespace
 
-Result<Setting> parse_setting(const std::string& text) {
+Result<FlagSetting> parse_setting(const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     return bad_input("found \"" + text + "\", expected key=value, for example --set render.bounces=2",
                      {"", 0, 0, "--set"});
   const std::string key = text.substr(0, equals);
-  return Setting{"--set " + key, key, text.substr(equals + 1)};
+  return FlagSetting{"--set " + key, key, text.substr(equals + 1)};
 }
 
-Result<void> apply_setting(Node& description, const Setting& setting) {
+Result<void> apply_setting(Node& description, const FlagSetting& setting) {
   if (auto done = set_by_path(description, setting.key, setting.text); !done)
     return bad_input(done.error().message, {"", 0, 0, setting.flag});
   resolve_file(description, setting.key);
@@ -38,7 +38,7 @@ Result<void> apply_setting(Node& description, const Setting& setting) {
 Result<LoadedScene> load_scene(const SceneOptions& options, SceneCache& cache, const LoadOptions& load_options) {
   auto scene = load_scene(options.file, cache, load_options);
   if (!scene) return scene;
-  for (const Setting& setting : options.settings)
+  for (const FlagSetting& setting : options.settings)
     if (auto done = apply_setting(scene->description, setting); !done) return done.error();
   return scene;
 }

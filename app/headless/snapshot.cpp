@@ -30,7 +30,7 @@ Result<void> run_snapshot(LoadedScene scene, const SnapshotOptions& options) {
 
   // Frames go on, as in a window, until the picture has all its samples and has been drawn.
   for (bool finished = false; !finished;) {
-    finished = session.up_to_date() && session.picture()->finished;
+    finished = session.finished();
     (*stage)->frame(draw);
     if (!session.problem().empty()) return bad_input(session.problem());
     if (!finished) std::this_thread::sleep_for(std::chrono::milliseconds(5));

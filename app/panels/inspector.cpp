@@ -19,12 +19,17 @@ std::optional<double> automatic_value(const Session& session, const Param& p) {
   return std::nullopt;
 }
 
-ParamRowContext row_context(const Session& session, const Node& node, const Param& p) {
+ParamRowContext row_context(const EditTarget& target, const NodePath& path, const Node& node, const Param& p) {
   ParamRowContext context;
   if (p.type == ParamType::Grid)
-    for (const GridInfo& info : session.grids_of(node.text("file")))
+    for (const GridInfo& info : target.session().grids_of(node.text("file")))
       if (info.usable) context.grids.push_back(info.name);
-  if (p.automatic) context.automatic_value = automatic_value(session, p);
+  if (p.automatic) context.automatic_value = automatic_value(target.session(), p);
+  const bool in_variant = target.goes_to_variant(path, p.key);
+  context.changed = in_variant ? target.is_set(path, p.key) : node.value(p.key) != p.default_value && !p.required;
+  context.reset_help = in_variant ? "As in the scene again" : "Back to the default";
+  const std::string setting = target.path_of(path, p.key);
+  if (!is_common(setting)) context.dragged = setting;
   return context;
 }
 
@@ -35,7 +40,7 @@ std::string label_of_choice(const Family& family) {
   return label;
 }
 
-void draw_kind(Session& session, const NodePath& path, const Family& family, const Node& node) {
+void draw_kind(const EditTarget& target, const NodePath& path, const Family& family, const Node& node) {
   if (family.tables.size() < 2) return;
   std::vector<std::string> labels;
   int index = 0;
@@ -44,40 +49,41 @@ void draw_kind(Session& session, const NodePath& path, const Family& family, con
     labels.push_back(family.tables[i]->label);
   }
   const std::string label = label_of_choice(family);  // outlives the row
-  ui::PropertyRow row(label.c_str(), {.doc = node.table().doc, .modified = false});
+  const std::string setting = target.path_of(path, family.type_key);
+  ui::PropertyRow row(
+      label.c_str(),
+      {.doc = node.table().doc, .modified = false, .reset_help = "", .dragged = is_common(setting) ? "" : setting});
   if (ui::combo(row.id(), index, labels)) {
-    session.change([&](Node& d) {
-      if (Node* n = path.find(d)) *n = n->converted_to(*family.tables[static_cast<std::size_t>(index)]);
-    });
-    session.close_step();
+    target.set_kind(path, family, *family.tables[static_cast<std::size_t>(index)]);
+    target.session().close_step();
   }
   static_cast<void>(row.finish());
 }
 
-void draw_node(Session& session, const NodePath& path, const Family* family, std::optional<NodePath>& browse) {
-  const Node* node = path.find(session.description());
+void draw_node(const EditTarget& target, const NodePath& path, const Family* family, std::optional<NodePath>& browse) {
+  Node description = target.description();
+  const Node* node = path.find(description);
   if (!node) return;
-  if (family) draw_kind(session, path, *family, *node);
-  node = path.find(session.description());
+  if (family) draw_kind(target, path, *family, *node);
   // The table outlives the node, which every edit replaces.
   const ParamTable& table = node->table();
   for (const Param& p : table.params) {
-    node = path.find(session.description());
+    description = target.description();
+    node = path.find(description);
     if (!node || &node->table() != &table) return;
-    const ParamEdit edit = param_row(p, node->value(p.key), row_context(session, *node, p));
-    if (edit.value)
-      session.change([&](Node& d) {
-        // Refused values (a widget cannot know every rule) leave the description as it was.
-        if (Node* n = path.find(d)) static_cast<void>(n->set(p.key, *edit.value).ok());
-      });
-    if (edit.finished) session.close_step();
+    const ParamEdit edit = param_row(p, node->value(p.key), row_context(target, path, *node, p));
+    if (edit.reset)
+      target.reset(path, p);
+    else if (edit.value)
+      target.set(path, p, *edit.value);
+    if (edit.finished) target.session().close_step();
     if (edit.browse) browse = path;
   }
   for (const Slot& slot : table.slots) {
     if (slot.list) continue;
     if (!ui::collapsing_header(slot.label.c_str())) continue;
     const ui::Scope scope(slot.label.c_str());
-    draw_node(session, path.child(slot.key), slot.family, browse);
+    draw_node(target, path.child(slot.key), slot.family, browse);
   }
 }
 
@@ -93,9 +99,10 @@ const Family* family_of(const Node& root, const NodePath& path) {
 
 }  // namespace
 
-std::optional<NodePath> draw_inspector(Session& session, const NodePath& selected) {
+std::optional<NodePath> draw_inspector(const EditTarget& target, const NodePath& selected) {
   std::optional<NodePath> browse;
-  const Node* node = selected.find(session.description());
+  const Node& scene = target.session().description();
+  const Node* node = selected.find(scene);
   if (!node) {
     ImGui::TextDisabled("Select something on the left.");
     return browse;
@@ -103,7 +110,7 @@ std::optional<NodePath> draw_inspector(Session& session, const NodePath& selecte
   ImGui::TextUnformatted(node->table().label.c_str());
   ui::tooltip_on_hover(node->table().doc);
   ImGui::Separator();
-  draw_node(session, selected, family_of(session.description(), selected), browse);
+  draw_node(target, selected, family_of(scene, selected), browse);
   return browse;
 }
 

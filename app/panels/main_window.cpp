@@ -8,6 +8,7 @@
 #include "app/panels/inspector.h"
 #include "app/panels/outliner.h"
 #include "app/panels/status_bar.h"
+#include "app/panels/variant_list.h"
 #include "app/ui/keys.h"
 #include "app/ui/widgets.h"
 
@@ -25,6 +26,10 @@ constexpr Shortcut kHelp[] = {{"Left drag", "orbit"},
                               {"Middle drag", "pan"},
                               {"Right drag, wheel", "dolly"},
                               {"F", "frame everything"},
+                              {"Ctrl+wheel, Ctrl+drag, Z", "zoom into the picture, move in it, all of it"},
+                              {"1-4", "show a variant; hold to flip"},
+                              {"S, W, D", "variants side by side, wipe, difference"},
+                              {"V", "duplicate as variant"},
                               {"E, Shift+E", "exposure up, down"},
                               {"Space", "pause, go on"},
                               {"R", "restart the picture"},
@@ -149,6 +154,7 @@ void MainWindow::handle_keys() {
     show_help_ = false;
     session_.cancel_activity();
   }
+  handle_view_keys();
   const auto expose = [&](double stops) {
     session_.change([&](Node& d) {
       Node& film = d.child("film");
@@ -158,6 +164,28 @@ void MainWindow::handle_keys() {
   };
   if (ui::shortcut(Key::E, {}, true)) expose(0.5);
   if (ui::shortcut(Key::E, {.shift = true}, true)) expose(-0.5);
+}
+
+void MainWindow::handle_view_keys() {
+  using ui::Key;
+  if (ui::shortcut(Key::S)) view_.mode = ViewMode::Tiles;
+  if (ui::shortcut(Key::W)) view_.mode = ViewMode::Wipe;
+  if (ui::shortcut(Key::D)) view_.mode = ViewMode::Difference;
+  if (ui::shortcut(Key::Z)) view_.zoom = 1;
+  if (ui::shortcut(Key::V)) edited_variant_ = duplicate_as_variant(session_, edited_variant_);
+  // A tap shows a variant; a key that is held shows it until it is let go.
+  for (std::size_t i = 0; i < std::min(session_.shown().size(), kMaxVariants); ++i) {
+    const auto key = static_cast<Key>(static_cast<int>(Key::Num1) + static_cast<int>(i));
+    if (!ui::shortcut(key)) continue;
+    flipped_ = {key, view_, ImGui::GetTime()};
+    view_.mode = ViewMode::Single;
+    view_.shown = i;
+  }
+  constexpr double kTap = 0.35;  // seconds
+  if (flipped_.key != Key{} && !ui::key_held(flipped_.key)) {
+    if (ImGui::GetTime() - flipped_.since > kTap) view_ = flipped_.before;
+    flipped_.key = Key{};
+  }
 }
 
 // --- Drawing
@@ -187,6 +215,37 @@ void MainWindow::draw_menu() {
     if (ui::menu_item("Restart", "R")) session_.restart();
     ui::end_menu();
   }
+  if (ui::menu("Compare")) {
+    const auto mode = [&](const char* label, const char* keys, ViewMode m) {
+      if (ui::menu_item(label, keys, view_.mode == m, session_.shown().size() > 1)) view_.mode = m;
+    };
+    if (ui::menu_item("Duplicate as variant", "V", false,
+                      session_.description().child("compare").list("variants").size() < kMaxVariants))
+      edited_variant_ = duplicate_as_variant(session_, edited_variant_);
+    ImGui::Separator();
+    mode("Side by side", "S", ViewMode::Tiles);
+    mode("Single", "1-4", ViewMode::Single);
+    mode("Wipe", "W", ViewMode::Wipe);
+    mode("Difference", "D", ViewMode::Difference);
+    ImGui::Separator();
+    const auto difference = [&](const char* label, DifferenceKind kind) {
+      if (ui::menu_item(label, "", view_.difference == kind)) view_.difference = kind;
+    };
+    difference("Signed", DifferenceKind::Signed);
+    difference("Absolute", DifferenceKind::Absolute);
+    difference("Relative", DifferenceKind::Relative);
+    difference("Squared", DifferenceKind::Squared);
+    ImGui::Separator();
+    const auto pick = [&](const char* label, std::size_t& which) {
+      if (!ui::menu(label)) return;
+      for (std::size_t i = 0; i < session_.shown().size(); ++i)
+        if (ui::menu_item(session_.shown()[i].variant.name.c_str(), "", which == i)) which = i;
+      ui::end_menu();
+    };
+    pick("Left, or what is judged", view_.shown);
+    pick("Right, or what it is judged by", view_.other);
+    ui::end_menu();
+  }
   if (ui::menu("Help")) {
     if (ui::menu_item("Keys", "?", show_help_)) show_help_ = !show_help_;
     ui::end_menu();
@@ -210,10 +269,12 @@ void MainWindow::draw_panels() {
   };
 
   if (show_panels_) {
-    if (panel("Scene", 0, top, left, height)) draw_outliner(session_, selected_);
+    if (panel("Scene", 0, top, left, height)) {
+      draw_outliner(session_, selected_);
+      draw_variant_list(session_, selected_, edited_variant_);
+    }
     ui::end_window();
-    if (panel("Inspector", io.DisplaySize.x - right, top, right, height))
-      if (const auto browse = draw_inspector(session_, selected_)) ask_file_of(*browse);
+    if (panel("Inspector", io.DisplaySize.x - right, top, right, height)) draw_inspected();
     ui::end_window();
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em * 0.7f, std::floor((status - em) / 2)});
     if (panel("Status", 0, top + height, io.DisplaySize.x, status, ImGuiWindowFlags_NoScrollbar))
@@ -228,9 +289,21 @@ void MainWindow::draw_panels() {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   if (panel("View", left, top, io.DisplaySize.x - left - right, height - log,
             ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
-    viewport_.draw(session_);
+    viewport_.draw(session_, view_, options_.measured);
   ui::end_window();
   ImGui::PopStyleVar();
+}
+
+void MainWindow::draw_inspected() {
+  const EditTarget target(session_, edited_variant_);
+  const auto variants = session_.description().child("compare").list("variants");
+  if (edited_variant_ && *edited_variant_ < variants.size() && selected_ != NodePath().child("compare")) {
+    const std::string& name = variants[*edited_variant_].text("name");
+    ImGui::TextDisabled("In variant %s:", (name.empty() ? variant_letter(*edited_variant_) : name).c_str());
+    ui::tooltip_on_hover("Edits become settings of this variant. Click its name in the list to edit the scene again.");
+    ImGui::SameLine();
+  }
+  if (const auto browse = draw_inspector(target, selected_)) ask_file_of(*browse);
 }
 
 void MainWindow::draw_log() {

@@ -3,8 +3,10 @@
 
 #include "app/panels/file_dialog.h"
 #include "app/panels/node_path.h"
+#include "app/panels/view_state.h"
 #include "app/panels/viewport.h"
 #include "app/session/session.h"
+#include "app/ui/keys.h"
 
 namespace brume {
 
@@ -32,10 +34,12 @@ class MainWindow {
  private:
   void draw_menu();
   void draw_panels();
+  void draw_inspected();
   void draw_log();
   void draw_help();
   void draw_unsaved_question();
   void handle_keys();
+  void handle_view_keys();
   void ask_open();
   void ask_save_as();
   void ask_export();
@@ -52,6 +56,13 @@ class MainWindow {
   Viewport viewport_;
   FileDialog dialog_;
   NodePath selected_;
+  std::optional<std::size_t> edited_variant_;  // of the description's; none: the scene itself
+  ViewState view_;
+  struct {
+    ui::Key key;
+    ViewState before;
+    double since;
+  } flipped_ = {};  // while a number key is held
   bool show_panels_ = true, show_log_ = false, show_help_ = false;
   bool may_quit_ = false;
   std::function<void()> after_question_;

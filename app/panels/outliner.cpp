@@ -91,6 +91,7 @@ void draw_outliner(Session& session, NodePath& selected) {
   // The table outlives the description, which every edit replaces.
   const ParamTable& table = session.description().table();
   for (const Slot& slot : table.slots) {
+    if (slot.family == &compare_family()) continue;  // has a list of its own
     if (!slot.list) {
       const NodePath path = NodePath().child(slot.key);
       if (ui::selectable(slot.label.c_str(), selected == path)) selected = path;

@@ -133,6 +133,27 @@ std::optional<Value> text_widget(const char* id, std::string text) {
   return text;
 }
 
+/// What is set, each with a button that takes it away; parameters are dragged onto a variant to set more.
+std::optional<Value> settings_widget(const char* id, const Settings& value) {
+  const ui::Scope scope(id);
+  if (value.empty()) ImGui::TextDisabled("nothing");
+  std::optional<Value> edited;
+  const float left = ImGui::GetCursorPosX();
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const ui::Scope setting(value[i].path.c_str());
+    ImGui::SetCursorPosX(left);
+    if (ui::small_button("x")) {
+      Settings rest = value;
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+      edited = std::move(rest);
+    }
+    ui::tooltip_on_hover("As in the scene again");
+    ImGui::SameLine();
+    ImGui::TextUnformatted((value[i].path + " = " + value[i].value).c_str());
+  }
+  return edited;
+}
+
 std::optional<Value> widget(const Param& p, const char* id, const Value& value, const ParamRowContext& context,
                             bool& browse) {
   switch (p.type) {
@@ -165,6 +186,8 @@ std::optional<Value> widget(const Param& p, const char* id, const Value& value, 
       return fields_widget(p, id, std::get<Numbers>(value), 4);
     case ParamType::NumberList:
       return fields_widget(p, id, std::get<Numbers>(value), 3);
+    case ParamType::SettingList:
+      return settings_widget(id, std::get<Settings>(value));
   }
   return std::nullopt;
 }
@@ -190,7 +213,9 @@ bool auto_switch(const Param& p, bool is_auto, std::optional<Value>& edited, con
 
 ParamEdit param_row(const Param& p, const Value& value, const ParamRowContext& context) {
   ParamEdit edit;
-  ui::PropertyRow row(p.label.c_str(), {.doc = help_text(p), .modified = value != p.default_value && !p.required});
+  ui::PropertyRow row(
+      p.label.c_str(),
+      {.doc = help_text(p), .modified = context.changed, .reset_help = context.reset_help, .dragged = context.dragged});
   bool is_auto = std::holds_alternative<Auto>(value);
   if (p.automatic) is_auto = auto_switch(p, is_auto, edit.value, context);
   if (is_auto) {
@@ -207,9 +232,9 @@ ParamEdit param_row(const Param& p, const Value& value, const ParamRowContext& c
     ImGui::NewLine();  // the switch was turned in this frame; the widget comes with the next
   }
   const bool active = ui::item_active();  // of the widget: finish() may draw the reset button after it
-  if (row.finish()) edit.value = p.default_value;
+  edit.reset = row.finish();
   // A drag is done when it ends; switches, combos, buttons and typed values are done at once.
-  edit.finished = row.edit_finished() || (edit.value && !active);
+  edit.finished = row.edit_finished() || edit.reset || (edit.value && !active);
   return edit;
 }
 

@@ -12,10 +12,14 @@ namespace brume {
 struct ParamRowContext {
   std::vector<std::string> grids;         ///< names offered for a parameter of type Grid
   std::optional<double> automatic_value;  ///< what "auto" has come to, where known
+  bool changed = false;                   ///< there is something to reset
+  std::string reset_help = "Back to the default";
+  std::string dragged = {};  ///< what dragging the name carries: a setting's path; empty: it cannot be dragged
 };
 
 struct ParamEdit {
   std::optional<Value> value;  ///< what the user has just set
+  bool reset = false;          ///< the reset button was pressed
   bool finished = false;       ///< the edit is over: the moment to close a step of the history
   bool browse = false;         ///< the user wants to choose a file
 };

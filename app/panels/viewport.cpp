@@ -4,94 +4,166 @@
 
 #include <cmath>
 
+#include "app/panels/picture_labels.h"
 #include "app/session/camera_moves.h"
 #include "app/session/display.h"
-#include "app/ui/theme.h"
 #include "app/ui/widgets.h"
 
 namespace brume {
 
-void Viewport::upload(const Session& session) {
-  const auto picture = session.picture();
-  const Node& film = session.description().child("film");
-  if (!picture || (picture == uploaded_ && uploaded_film_ == film)) return;
-  to_display(picture->image, display_settings(film), 4, display_);
-  if (!texture_.upload(display_.width, display_.height, display_.bytes)) return;
-  uploaded_ = picture;
-  uploaded_film_ = film;
+/// The window's inside, and the proportions of the pictures.
+struct Viewport::Room {
+  ImVec2 corner, size;
+  float aspect;
+
+  /// One of columns x rows pictures, as large as they can be, close together in the middle of the room.
+  PictureArea tile(int column, int row, int columns, int rows) const {
+    constexpr float kGap = 2;
+    const auto c = static_cast<float>(columns), r = static_cast<float>(rows);
+    const ImVec2 most((size.x - kGap * (c - 1)) / c, (size.y - kGap * (r - 1)) / r);
+    const float width = std::max(1.0f, std::floor(std::min(most.x, most.y * aspect)));
+    const float height = std::max(1.0f, std::floor(std::min(most.y, most.x / aspect)));
+    const auto place = [&](float begin, float whole, float part, float n, int i) {
+      const float margin = (whole - n * part - (n - 1) * kGap) / 2;
+      return std::floor(begin + margin + static_cast<float>(i) * (part + kGap));
+    };
+    const ImVec2 min(place(corner.x, size.x, width, c, column), place(corner.y, size.y, height, r, row));
+    return {min, {min.x + width, min.y + height}};
+  }
+  PictureArea whole() const { return tile(0, 0, 1, 1); }
+};
+
+Viewport::Viewport(const Gl& gl) : difference_(gl) {
+  for (std::size_t i = 0; i < kMaxVariants; ++i) pictures_.emplace_back(gl);
 }
 
-void Viewport::handle_mouse(Session& session, float picture_height) {
+void Viewport::handle_mouse(Session& session, ViewState& view, const PictureArea& area) {
   const ImGuiIO& io = ImGui::GetIO();
   const double dx = io.MouseDelta.x, dy = io.MouseDelta.y;
   const auto move = [&](const auto& edit) { session.change([&](Node& d) { edit(d.child("camera")); }); };
-  if (ImGui::IsItemActive() && (dx != 0 || dy != 0)) {
+  if (ImGui::IsItemActive() && (dx != 0 || dy != 0) && !dragging_line_) {
     constexpr double kRadiansPerPixel = 0.006;
-    if (ImGui::IsMouseDown(ImGuiMouseButton_Left))
+    const double height = area.height();
+    if (io.KeyCtrl) {
+      view.center_x -= io.MouseDelta.x / area.width() / view.zoom;
+      view.center_y -= io.MouseDelta.y / area.height() / view.zoom;
+      view.clamp();
+    } else if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
       move([&](Node& camera) { orbit(camera, dx * kRadiansPerPixel, dy * kRadiansPerPixel); });
-    else if (ImGui::IsMouseDown(ImGuiMouseButton_Middle))
-      move([&](Node& camera) { pan(camera, -dx / picture_height, dy / picture_height); });
-    else if (ImGui::IsMouseDown(ImGuiMouseButton_Right))
+    } else if (ImGui::IsMouseDown(ImGuiMouseButton_Middle)) {
+      move([&](Node& camera) { pan(camera, -dx / height, dy / height); });
+    } else if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
       move([&](Node& camera) { dolly(camera, std::exp(0.005 * (dy - dx))); });
+    }
   }
   if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
-    move([&](Node& camera) { dolly(camera, std::pow(0.9, static_cast<double>(io.MouseWheel))); });
-    session.close_step();
+    const ImVec2 place = area.to_picture(view, io.MousePos);
+    if (io.KeyCtrl) {
+      view.zoom_about(place.x, place.y, std::pow(1.25f, io.MouseWheel));
+    } else {
+      move([&](Node& camera) { dolly(camera, std::pow(0.9, static_cast<double>(io.MouseWheel))); });
+      session.close_step();
+    }
   }
   if (ImGui::IsItemDeactivated()) session.close_step();
 }
 
-void Viewport::draw_overlays(const Session& session, float x, float y, float width, float height) {
-  const float em = ImGui::GetFontSize();
-  ImDrawList* draw = ImGui::GetWindowDrawList();
-  const auto plate = [&](float top, const std::string& text, ImVec4 color) {
-    const float wrap = std::min(width - 4 * em, 40 * em);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
-    const ImVec2 corner(std::floor(x + (width - size.x) / 2), std::floor(top));
-    draw->AddRectFilled({corner.x - em, corner.y - em * 0.6f}, {corner.x + size.x + em, corner.y + size.y + em * 0.6f},
-                        IM_COL32(24, 24, 26, 225), em * 0.3f);
-    draw->AddText(nullptr, 0, corner, ImGui::GetColorU32(color), text.c_str(), nullptr, wrap);
-    return size.y + em * 1.8f;
-  };
-  const ImVec4 plain = ImGui::GetStyleColorVec4(ImGuiCol_Text);
-  float top = y + height - 4 * em;
-  if (!session.problem().empty()) plate(y + em * 2, session.problem(), {1.0f, 0.55f, 0.45f, 1});
-  if (!session.black_picture().empty() && session.problem().empty())
-    plate(y + height / 2 - em, session.black_picture(), plain);
-  if (session.paused()) plate(top, "Paused: Space goes on", plain);
-
-  if (!session.scene() && session.idle() && session.problem().empty())
-    plate(y + height / 2 - em, "Drop a .vdb file or a scene here, or press Ctrl+O.", plain);
-
-  // Progress is for what takes longer than a moment; it would only flicker otherwise.
-  const auto activity = session.activity();
-  if (!activity || activity->seconds < 0.4) return;
-  char text[160];
-  std::snprintf(text, sizeof text, "%s  %.0f %%", activity->what.c_str(),
-                100.0 * static_cast<double>(activity->progress));
-  top = y + height / 2 + 3 * em;
-  plate(top, text, plain);
-  const float bar = 16 * em, left = x + (width - bar) / 2;
-  draw->AddRectFilled({left, top + 2 * em}, {left + bar, top + 2.3f * em}, IM_COL32(60, 60, 64, 255));
-  draw->AddRectFilled({left, top + 2 * em}, {left + bar * activity->progress, top + 2.3f * em},
-                      ImGui::GetColorU32(ui::theme_accent()));
+void Viewport::draw_single(Session& session, ViewState& view, const PictureArea& area) {
+  pictures_[view.shown].draw(area, view);
+  if (const auto p = session.picture(view.shown)) draw_pixel_values(p->image, area, view);
+  if (session.shown().size() > 1) draw_variant_label(session, view.shown, area.min.x, area);
 }
 
-void Viewport::draw(Session& session) {
-  const ImVec2 room = ImGui::GetContentRegionAvail(), corner = ImGui::GetCursorScreenPos();
-  const Numbers& resolution = session.description().child("film").numbers("resolution");
-  const float aspect = static_cast<float>(resolution[0] / resolution[1]);
-  const float width = std::max(1.0f, std::floor(std::min(room.x, room.y * aspect)));
-  const float height = std::max(1.0f, std::floor(std::min(room.y, room.x / aspect)));
-  const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
-  session.set_picture_size(static_cast<int>(width * pixels.x), static_cast<int>(height * pixels.y));
-  upload(session);
+void Viewport::draw_tiles(Session& session, ViewState& view, const Room& room, bool measured) {
+  const int n = static_cast<int>(session.shown().size());
+  // In whichever way the pictures are largest.
+  int columns = 1;
+  for (int c = 1; c <= n; ++c)
+    if (room.tile(0, 0, c, (n + c - 1) / c).width() > room.tile(0, 0, columns, (n + columns - 1) / columns).width())
+      columns = c;
+  const int rows = (n + columns - 1) / columns;
+  for (int i = 0; i < n; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const PictureArea area = room.tile(i % columns, i / columns, columns, rows);
+    ImGui::SetCursorScreenPos(area.min);
+    ui::canvas(("picture " + session.shown()[index].variant.name).c_str(), {area.width(), area.height()});
+    handle_mouse(session, view, area);
+    pictures_[index].draw(area, view);
+    if (const auto p = session.picture(index)) draw_pixel_values(p->image, area, view);
+    draw_variant_label(session, index, area.min.x, area);
+    draw_variant_figures(session, index, area, measured);
+    if (!session.black_picture(index).empty()) draw_plate(area, area.height() / 2, session.black_picture(index));
+  }
+}
 
-  const float x = std::floor(corner.x + (room.x - width) / 2), y = std::floor(corner.y + (room.y - height) / 2);
-  ImGui::SetCursorScreenPos({x, y});
-  ui::image("picture", texture_.id(), {width, height});
-  handle_mouse(session, height);
-  draw_overlays(session, x, y, width, height);
+void Viewport::draw_wipe(Session& session, ViewState& view, const PictureArea& area) {
+  const float line = area.to_screen(view, {view.wipe, 0}).x;
+  pictures_[view.shown].draw(area, view, area.min.x, line);
+  pictures_[view.other].draw(area, view, line, area.max.x);
+  draw_variant_label(session, view.shown, area.min.x, area);
+  draw_variant_label(session, view.other, std::max(line, area.min.x), area);
+  if (line <= area.min.x || line >= area.max.x) return;
+  const float grip = std::floor(0.5f * ImGui::GetFontSize());
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddLine({line, area.min.y}, {line, area.max.y}, IM_COL32(255, 255, 255, 200), 1.5f);
+  const float middle = (area.min.y + area.max.y) / 2;
+  draw->AddCircleFilled({line, middle}, grip, IM_COL32(255, 255, 255, 230));
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const bool near = std::abs(mouse.x - line) < grip && area.contains(mouse);
+  ui::record_area("wipe line", {line - grip, middle - grip}, {line + grip, middle + grip}, near);
+  if (near || dragging_line_) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (ImGui::IsItemActivated() && near && !ImGui::GetIO().KeyCtrl) dragging_line_ = true;
+  if (dragging_line_) view.wipe = std::clamp(area.to_picture(view, mouse).x, 0.0f, 1.0f);
+}
+
+void Viewport::draw_difference(Session& session, ViewState& view, const PictureArea& area) {
+  const auto test = session.picture(view.shown), reference = session.picture(view.other);
+  auto& d = differing_;
+  if (test && reference && (test != d.test || reference != d.reference || view.difference != d.kind)) {
+    d.test = test, d.reference = reference, d.kind = view.difference;
+    // Coarse pictures of different sizes have no difference; the last one stays until there are others.
+    if (const auto map = difference_map(test->image, reference->image, view.difference)) {
+      difference_.show(map->image);
+      d.range = map->range;
+    }
+  }
+  if (!(d.range > 0)) return;
+  difference_.draw(area, view);
+  draw_difference_legend(session, view, d.range, area);
+}
+
+void Viewport::draw(Session& session, ViewState& view, bool measured) {
+  const Numbers& resolution = session.description().child("film").numbers("resolution");
+  const Room room{ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(),
+                  static_cast<float>(resolution[0] / resolution[1])};
+  const PictureArea whole = room.whole();
+  const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
+  session.set_picture_size(static_cast<int>(whole.width() * pixels.x), static_cast<int>(whole.height() * pixels.y));
+
+  const DisplaySettings settings = display_settings(session.description().child("film"));
+  const std::size_t n = session.shown().size();
+  for (std::size_t i = 0; i < n; ++i) pictures_[i].show(session.picture(i), settings);
+  view.shown = std::min(view.shown, std::max<std::size_t>(n, 1) - 1);
+  view.other = std::min(view.other, std::max<std::size_t>(n, 1) - 1);
+  view.clamp();
+  if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) dragging_line_ = false;
+
+  if (n > 1 && view.mode == ViewMode::Tiles) {
+    draw_tiles(session, view, room, measured);
+  } else {
+    ImGui::SetCursorScreenPos(whole.min);
+    ui::canvas("picture", {whole.width(), whole.height()});
+    if (n > 1 && view.mode == ViewMode::Wipe)
+      draw_wipe(session, view, whole);
+    else if (n > 1 && view.mode == ViewMode::Difference)
+      draw_difference(session, view, whole);
+    else
+      draw_single(session, view, whole);
+    handle_mouse(session, view, whole);
+    if (!session.black_picture(view.shown).empty() && session.problem().empty())
+      draw_plate(whole, whole.height() / 2, session.black_picture(view.shown));
+  }
+  draw_messages(session, whole);
 }
 
 }  // namespace brume

@@ -1,30 +1,39 @@
-// The picture, and the camera under the mouse.
+// The pictures, and the camera under the mouse.
 #pragma once
 
-#include <optional>
+#include <vector>
 
-#include "app/gl/texture.h"
+#include "app/panels/picture_view.h"
 #include "app/session/session.h"
 
 namespace brume {
 
 class Viewport {
  public:
-  explicit Viewport(const Gl& gl) : texture_(gl) {}
+  explicit Viewport(const Gl& gl);
 
-  /// Fills the rest of the current window. The picture keeps the film's proportions and is rendered at the size at
-  /// which it is shown.
-  void draw(Session& session);
+  /// Fills the rest of the current window. Pictures keep the film's proportions and are rendered at the size that one
+  /// alone would have, so that looking at them in another way renders nothing anew.
+  /// @param measured  false leaves out what differs between runs
+  void draw(Session& session, ViewState& view, bool measured);
 
  private:
-  void upload(const Session& session);
-  void handle_mouse(Session& session, float picture_height);
-  void draw_overlays(const Session& session, float x, float y, float width, float height);
+  struct Room;  // where pictures may be drawn
 
-  Texture texture_;
-  std::shared_ptr<const Picture> uploaded_;
-  std::optional<Node> uploaded_film_;
-  Image8 display_;
+  void draw_single(Session& session, ViewState& view, const PictureArea& area);
+  void draw_tiles(Session& session, ViewState& view, const Room& room, bool measured);
+  void draw_wipe(Session& session, ViewState& view, const PictureArea& area);
+  void draw_difference(Session& session, ViewState& view, const PictureArea& area);
+  void handle_mouse(Session& session, ViewState& view, const PictureArea& area);
+
+  std::vector<PictureTexture> pictures_;  // of the variants
+  PictureTexture difference_;
+  struct {
+    std::shared_ptr<const Picture> test, reference;
+    DifferenceKind kind = {};
+    double range = 0;  // 0: there is no map
+  } differing_;
+  bool dragging_line_ = false;
 };
 
 }  // namespace brume

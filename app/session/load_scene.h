@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "renderer/engine/engine.h"
-#include "renderer/scene/scene_cache.h"
 #include "renderer/params/node.h"
+#include "renderer/scene/scene_cache.h"
 
 namespace brume {
 

@@ -1,6 +1,8 @@
 #include "app/session/session.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "app/session/load_scene.h"
 #include "renderer/engine/black_picture.h"
@@ -34,14 +36,17 @@ struct Session::Wish {
 
 struct Session::Outcome {
   Wish wish;
-  std::optional<LoadedScene> loaded;   // of a wish to open
-  std::shared_ptr<const Scene> scene;  // null: see error
+  std::optional<LoadedScene> loaded;  // of a wish to open
+  std::vector<Shown> shown;           // empty: see error
   std::optional<Error> error;
   std::map<std::string, std::vector<GridInfo>> grid_infos;
 };
 
 Session::Session(const SessionOptions& options)
-    : options_(options), description_(empty_scene()), saved_(description_), engine_(options.threads, options.on_news) {
+    : options_(options),
+      description_(empty_scene()),
+      saved_(description_),
+      engine_({.threads = options.threads, .on_picture = options.on_news}) {
   worker_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
 }
 
@@ -122,8 +127,9 @@ Result<void> Session::export_picture(const std::string& path) const {
 }
 
 void Session::frame_all() {
-  if (!scene_ || scene_->bounds.empty()) return;
-  const Bounds3 world{scene_->bounds.low + scene_->origin, scene_->bounds.high + scene_->origin};
+  if (shown_.empty() || scene()->bounds.empty()) return;
+  const Scene& s = *scene();
+  const Bounds3 world{s.bounds.low + s.origin, s.bounds.high + s.origin};
   const Numbers& r = description_.child("film").numbers("resolution");
   change([&](Node& d) { frame_bounds(d.child("camera"), world, r[0] / r[1]); });
   close_step();
@@ -137,11 +143,14 @@ void Session::set_picture_size(int width, int height) {
   submit();
 }
 
-void Session::restart() { submit(); }
-
-void Session::submit() {
-  if (scene_ && width_ > 0 && height_ > 0) engine_.submit({{scene_, width_, height_, options_.max_samples}});
+void Session::submit(bool restart) {
+  if (shown_.empty() || width_ <= 0 || height_ <= 0) return;
+  std::vector<Job> jobs;
+  for (const Shown& s : shown_) jobs.push_back({s.scene, width_, height_, options_.max_samples});
+  engine_.submit(std::move(jobs), restart);
 }
+
+const std::string& Session::black_picture(std::size_t i) const { return examined_[i].black; }
 
 // --- What goes on
 
@@ -173,9 +182,19 @@ bool Session::idle() const {
 }
 
 bool Session::up_to_date() const {
-  const auto shown = picture();
-  return idle() && scene_ && shown && shown->generation == scene_->generation && shown->width == width_ &&
-         shown->height == height_;
+  if (!idle() || shown_.empty()) return false;
+  for (std::size_t i = 0; i < shown_.size(); ++i) {
+    const auto p = picture(i);
+    if (!p || p->generation != shown_[i].scene->generation || p->width != width_ || p->height != height_) return false;
+  }
+  return true;
+}
+
+bool Session::finished() const {
+  if (!up_to_date()) return false;
+  for (std::size_t i = 0; i < shown_.size(); ++i)
+    if (!picture(i)->finished) return false;
+  return true;
 }
 
 void Session::request(Wish wish) {
@@ -226,16 +245,37 @@ Session::Outcome Session::fulfil(const Wish& wish, const std::stop_token& cancel
     out.loaded = std::move(*loaded);
   }
   const Node& description = out.loaded ? out.loaded->description : *wish.description;
-  auto scene = commit(description, cache_, {.generation = wish.generation, .progress = progress, .cancel = cancel});
   for (const Node& volume : description.list("volumes")) {
     if (!volume.table().find("file") || volume.text("file").empty()) continue;
     if (auto infos = list_grids(volume.text("file"), false)) out.grid_infos[volume.text("file")] = std::move(*infos);
   }
-  if (scene)
-    out.scene = *scene;
+  auto committed =
+      commit_variants(description, {.generation = wish.generation, .progress = progress, .cancel = cancel});
+  if (committed)
+    out.shown = last_committed_ = std::move(*committed);
   else
-    out.error = scene.error();
+    out.error = committed.error();
   return out;
+}
+
+Result<std::vector<Session::Shown>> Session::commit_variants(const Node& description, const CommitOptions& options) {
+  auto variants = variants_of(description);
+  if (!variants) return variants.error();
+  std::vector<Shown> committed;
+  for (Variant& v : *variants) {
+    // What an edit has not touched goes on as it is: its picture keeps its samples.
+    const auto same = std::find_if(last_committed_.begin(), last_committed_.end(), [&](const Shown& s) {
+      return node_difference(s.variant.description, v.description).value_or(Affects::Display) == Affects::Display;
+    });
+    if (same != last_committed_.end()) {
+      committed.push_back({std::move(v), same->scene});
+      continue;
+    }
+    auto scene = commit(v.description, cache_, options);
+    if (!scene) return variants->size() > 1 ? under("compare.variants." + v.name, scene.error()) : scene.error();
+    committed.push_back({std::move(v), std::move(*scene)});
+  }
+  return committed;
 }
 
 void Session::take(Outcome outcome) {
@@ -259,9 +299,12 @@ void Session::take(Outcome outcome) {
     return;
   }
   problem_.clear();
-  if (!scene_ || scene_->warnings != outcome.scene->warnings)
-    for (const std::string& warning : outcome.scene->warnings) say(LogLevel::Warning, warning);
-  scene_ = std::move(outcome.scene);
+  std::set<std::string> known;
+  for (const Shown& s : shown_) known.insert(s.scene->warnings.begin(), s.scene->warnings.end());
+  for (const Shown& s : outcome.shown)
+    for (const std::string& warning : s.scene->warnings)
+      if (known.insert(warning).second) say(LogLevel::Warning, warning);
+  shown_ = std::move(outcome.shown);
   cache_.drop_unused();
   submit();
 }
@@ -274,11 +317,12 @@ void Session::update() {
     if (outcome && wish_) wished_.notify_all();
   }
   if (outcome) take(std::move(*outcome));
-
-  const auto shown = picture();
-  if (shown && shown != examined_ && scene_ && shown->generation == scene_->generation) {
-    examined_ = shown;
-    black_picture_ = explain_black(*scene_, *shown).value_or("");
+  engine_.set_share(description_.child("compare").text("share") == "equal_time" ? Share::EqualTime
+                                                                                : Share::EqualSamples);
+  for (std::size_t i = 0; i < shown_.size(); ++i) {
+    const auto p = picture(i);
+    if (!p || p == examined_[i].picture || p->generation != shown_[i].scene->generation) continue;
+    examined_[i] = {p, explain_black(*shown_[i].scene, *p).value_or("")};
   }
 }
 

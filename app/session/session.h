@@ -1,6 +1,7 @@
 // The document: a scene description with its history, and the picture that follows it.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <map>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "renderer/engine/engine.h"
 #include "renderer/media/vdb_file.h"
 #include "renderer/params/node.h"
+#include "renderer/scene/compare.h"
 
 namespace brume {
 
@@ -64,18 +66,28 @@ class Session {
 
   // --- The picture
 
-  /// Size at which the picture is rendered; the engine restarts when it changes.
+  /// What is rendered: the variants that are on, or the scene itself. Of the newest successful commit; empty before
+  /// the first.
+  struct Shown {
+    Variant variant;
+    std::shared_ptr<const Scene> scene;
+  };
+  const std::vector<Shown>& shown() const { return shown_; }
+
+  /// Size at which pictures are rendered; the engine restarts when it changes.
   void set_picture_size(int width, int height);
-  std::shared_ptr<const Picture> picture() const { return engine_.picture(); }
-  /// The scene of the newest successful commit; null before the first.
-  std::shared_ptr<const Scene> scene() const { return scene_; }
-  /// The picture is of the newest edit and of the size asked for.
+  /// Of shown()[i]; null before the first.
+  std::shared_ptr<const Picture> picture(std::size_t i = 0) const { return engine_.picture(i); }
+  std::shared_ptr<const Scene> scene(std::size_t i = 0) const { return i < shown_.size() ? shown_[i].scene : nullptr; }
+  /// All pictures are of the newest edit and of the size asked for.
   bool up_to_date() const;
+  /// All pictures have all their samples.
+  bool finished() const;
   bool paused() const { return engine_.paused(); }
   void set_paused(bool paused) { engine_.pause(paused); }
-  void restart();
-  /// Why there is nothing to see, in one sentence; empty when there is.
-  const std::string& black_picture() const { return black_picture_; }
+  void restart() { submit(true); }
+  /// Why there is nothing to see in a picture, in one sentence; empty when there is.
+  const std::string& black_picture(std::size_t i = 0) const;
 
   // --- What goes on
 
@@ -110,8 +122,9 @@ class Session {
   void request(Wish wish);
   void serve(const std::stop_token& stop);
   Outcome fulfil(const Wish& wish, const std::stop_token& cancel);
+  Result<std::vector<Shown>> commit_variants(const Node& description, const CommitOptions& options);
   void take(Outcome outcome);
-  void submit();
+  void submit(bool restart = false);
 
   SessionOptions options_;
   Node description_;
@@ -121,9 +134,13 @@ class Session {
   bool step_open_ = false;
   std::uint64_t generation_ = 0;
   int width_ = 0, height_ = 0;
-  std::shared_ptr<const Scene> scene_;
-  std::string problem_, black_picture_;
-  std::shared_ptr<const Picture> examined_;  // by explain_black
+  std::vector<Shown> shown_;
+  std::string problem_;
+  struct Examined {
+    std::shared_ptr<const Picture> picture;
+    std::string black;
+  };
+  std::array<Examined, kMaxVariants> examined_;  // by explain_black
   std::deque<Message> messages_;
   std::map<std::string, std::vector<GridInfo>> grid_infos_;
 
@@ -138,7 +155,8 @@ class Session {
   std::chrono::steady_clock::time_point work_began_;
   std::stop_source cancel_work_;
   std::atomic<float> progress_ = 0;
-  std::jthread worker_;  // last: it ends before what it uses
+  std::vector<Shown> last_committed_;  // the worker's own
+  std::jthread worker_;                // last: it ends before what it uses
 };
 
 }  // namespace brume

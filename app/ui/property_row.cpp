@@ -45,6 +45,15 @@ PropertyRow::PropertyRow(const char* label, const PropertyRowOptions& options)
   const std::string shown = fitting(name, label_width);
   ImGui::TextUnformatted(shown.c_str());
   ImGui::PopStyleColor();
+  if (!options_.dragged.empty()) {
+    const Scope scope(label_.c_str());
+    record_item("name");
+    if (ImGui::BeginDragDropSource(ImGuiDragDropFlags_SourceAllowNullID)) {
+      ImGui::SetDragDropPayload(kDraggedSetting, options_.dragged.data(), options_.dragged.size());
+      ImGui::TextUnformatted(options_.dragged.c_str());
+      ImGui::EndDragDropSource();
+    }
+  }
   tooltip_on_hover(shown == name || options_.doc.empty() ? (shown == name ? options_.doc : name)
                                                          : name + "\n" + options_.doc);
 
@@ -68,7 +77,7 @@ bool PropertyRow::finish() {
   draw_reset_arrow({std::floor(corner.x + size.x * 0.55f) + 0.5f, std::floor(corner.y + height * 0.5f) + 0.5f},
                    em * 0.3f, ImGui::GetColorU32(color));
   record_item("##reset");
-  tooltip_on_hover("Back to the default");
+  tooltip_on_hover(options_.reset_help);
   edit_finished_ |= pressed;
   return pressed;
 }

@@ -212,13 +212,11 @@ bool input_text(const char* label, std::string& text, const char* hint) {
   return changed;
 }
 
-bool image(const char* label, ImTextureID texture, ImVec2 size, ImVec2 uv_top_left, ImVec2 uv_bottom_right) {
-  const ImVec2 min = ImGui::GetCursorScreenPos();
+bool canvas(const char* label, ImVec2 size) {
   const ImVec2 area(std::max(1.0f, size.x), std::max(1.0f, size.y));  // ImGui forbids a button of no size
   ImGui::InvisibleButton(
       label, area,
       ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
-  ImGui::GetWindowDrawList()->AddImage(texture, min, {min.x + area.x, min.y + area.y}, uv_top_left, uv_bottom_right);
   record_item(label);
   return ImGui::IsItemHovered() || ImGui::IsItemActive();
 }

@@ -91,10 +91,10 @@ bool color_edit(const char* label, Color& linear, const DragOptions& options = {
 
 // --- Pictures and help.
 
-/// A picture that takes the mouse (left, right, middle), so that dragging in it does not move the window. Returns
-/// whether the mouse is on it or was pressed on it; ImGui::IsItemActive() and GetItemRectMin() then speak of it.
-bool image(const char* label, ImTextureID texture, ImVec2 size, ImVec2 uv_top_left = {0, 0},
-           ImVec2 uv_bottom_right = {1, 1});
+/// A place for pictures that takes the mouse (left, right, middle), so that dragging in it does not move the window.
+/// Draw into it afterwards. Returns whether the mouse is on it or was pressed on it; ImGui::IsItemActive() and
+/// GetItemRectMin() then speak of it.
+bool canvas(const char* label, ImVec2 size);
 
 /// Help for the widget drawn last: wrapped, shown when the mouse has rested on it for a moment. Empty text: nothing.
 void tooltip_on_hover(std::string_view text);

@@ -11,7 +11,8 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr double kFirstLookSeconds = 0.033;  // the coarse first picture after an edit may take this long
+constexpr double kFirstLookSeconds = 0.033;  // the coarse first pictures after an edit may take this long together
+constexpr double kTurnSeconds = 0.1;         // of one job among several
 constexpr int kMaxDivisor = 32;
 constexpr double kGuessedSecondsPerRay = 20e-6;                        // before anything was measured: on the safe side
 constexpr auto kLeastPublishInterval = std::chrono::milliseconds(15);  // no display shows more pictures than that
@@ -26,18 +27,22 @@ void add(RenderStatistics& sum, const WorkerPool::Totals& totals) {
 
 struct Engine::Progress {
   Job job;
-  std::size_t index;
-  std::unique_ptr<const Integrator> integrator;
-  Film film;        // of older samples until the first full pass
-  int divisor = 0;  // of the next coarse pass; 1: the film's passes; 0: nothing has been shown yet
+  std::size_t index = 0;
+  std::unique_ptr<const Integrator> integrator = {};
+  Film film = {};        // of older samples until the first full pass
+  int divisor = 0;       // of the next coarse pass; 1: the film's passes; 0: nothing has been shown yet
+  int next_tile = 0;     // of the film's pass under way
+  bool spoiled = false;  // a pass was given up in the middle: some pixels have a sample more than others
   RenderStatistics statistics = {};
   Clock::time_point published = {};
 
   bool finished() const { return statistics.samples_per_pixel >= job.max_samples; }
+  double samples() const {
+    return statistics.samples_per_pixel + static_cast<double>(next_tile) / tile_count(job.width, job.height);
+  }
 };
 
-Engine::Engine(int threads, std::function<void()> on_picture)
-    : pool_(threads), on_picture_(std::move(on_picture)), seconds_per_ray_(kGuessedSecondsPerRay) {
+Engine::Engine(const EngineOptions& options) : pool_(options.threads, options.clock), on_picture_(options.on_picture) {
   director_ = std::jthread([this](const std::stop_token& stop) { direct(stop); });
 }
 
@@ -46,11 +51,18 @@ Engine::~Engine() {
   director_.request_stop();
 }
 
-void Engine::submit(std::vector<Job> jobs) {
+void Engine::submit(std::vector<Job> jobs, bool restart) {
   const std::lock_guard lock(mutex_);
   wishes_ = std::move(jobs);
-  newest_wish_ = ++wish_number_;
+  wished_ = true;
+  restart_ |= restart;
+  cancel_ = restart_ || !running_ || std::find(wishes_.begin(), wishes_.end(), *running_) == wishes_.end();
   changed_.notify_all();
+}
+
+void Engine::set_share(Share share) {
+  const std::lock_guard lock(mutex_);
+  share_ = share;
 }
 
 void Engine::pause(bool paused) {
@@ -69,43 +81,78 @@ std::shared_ptr<const Picture> Engine::picture(std::size_t job) const {
   return job < pictures_.size() ? pictures_[job] : nullptr;
 }
 
-bool Engine::wishes_changed() const { return stopping_ || newest_wish_ != current_wish_; }
+Cancelled Engine::cancelled() const {
+  return [this] { return stopping_ || cancel_; };
+}
+
+std::optional<std::size_t> Engine::next_job(const std::vector<Progress>& jobs) const {
+  std::vector<Turn> turns;
+  for (const Progress& job : jobs)
+    turns.push_back({.waits = !job.finished() && (!paused_ || job.divisor == 0),
+                     .shown = job.divisor != 0,
+                     .samples = job.samples(),
+                     .cpu_seconds = job.statistics.cpu_seconds});
+  return next_turn(turns, share_, first_look_);
+}
 
 void Engine::direct(const std::stop_token& stop) {
   std::vector<Progress> jobs;
   while (!stop.stop_requested()) {
-    Progress* next = nullptr;
+    std::optional<std::size_t> next;
     {
       std::unique_lock lock(mutex_);
-      const auto has_work = [&] {
-        next = nullptr;
-        if (wish_number_ != current_wish_) return true;
-        for (Progress& job : jobs)
-          if (!job.finished() && (!paused_ || job.divisor == 0) &&
-              (!next || job.divisor == 0 ||
-               (next->divisor != 0 && job.statistics.samples_per_pixel < next->statistics.samples_per_pixel)))
-            next = &job;
-        return next != nullptr;
-      };
+      running_.reset();
+      const auto has_work = [&] { return wished_ || (next = next_job(jobs)).has_value(); };
       if (!changed_.wait(lock, stop, has_work)) return;
-      if (wish_number_ != current_wish_) {
-        current_wish_ = wish_number_;
-        // Films are kept: fresh memory of this size costs more time than a first look may take.
-        std::vector<Film> films;
-        for (Progress& job : jobs) films.push_back(std::move(job.film));
-        films.resize(wishes_.size());
-        jobs.clear();
-        // Pictures of the old wishes stay up until the first of the new ones is there: nothing flashes black.
-        pictures_.resize(wishes_.size());
-        for (std::size_t i = 0; i < wishes_.size(); ++i) {
-          const Job& wish = wishes_[i];
-          jobs.push_back({wish, i, make_integrator(*wish.scene), std::move(films[i])});
-        }
-        continue;
-      }
+      if (!wished_) running_ = jobs[*next].job;
     }
-    render_next(*next);
+    if (next)
+      render_next(jobs[*next], jobs.size());
+    else
+      take_up_wishes(jobs);
   }
+}
+
+void Engine::take_up_wishes(std::vector<Progress>& jobs) {
+  std::vector<Job> wishes;
+  bool restart;
+  {
+    const std::lock_guard lock(mutex_);
+    wishes = wishes_;
+    restart = std::exchange(restart_, false);
+    wished_ = false;
+    cancel_ = false;
+  }
+  std::vector<Progress> old = std::move(jobs);
+  const auto take_same = [&](const Job& wish) -> std::optional<Progress> {
+    const auto same =
+        std::find_if(old.begin(), old.end(), [&](const Progress& p) { return p.job == wish && !p.spoiled; });
+    if (restart || same == old.end()) return std::nullopt;
+    Progress kept = std::move(*same);
+    old.erase(same);
+    return kept;
+  };
+  // Pictures of the old wishes stay up until the first of the new ones is there: nothing flashes black.
+  std::vector<std::shared_ptr<const Picture>> pictures(wishes.size());
+  jobs.resize(wishes.size());
+  for (std::size_t i = 0; i < wishes.size(); ++i) {
+    auto kept = take_same(wishes[i]);
+    pictures[i] = picture(kept ? kept->index : i);
+    jobs[i] = kept ? std::move(*kept) : Progress{.job = wishes[i]};
+    jobs[i].index = i;
+  }
+  // What prepares an integrator may take long: not under the lock that the UI asks for pictures with.
+  for (Progress& job : jobs) {
+    if (job.integrator) continue;
+    job.integrator = make_integrator(*job.job.scene);
+    // Films are kept: fresh memory of this size costs more time than a first look may take.
+    if (old.empty()) continue;
+    job.film = std::move(old.back().film);
+    old.pop_back();
+  }
+  seconds_per_ray_.resize(jobs.size(), kGuessedSecondsPerRay);
+  const std::lock_guard lock(mutex_);
+  pictures_ = std::move(pictures);
 }
 
 void Engine::account(Progress& job, Clock::time_point start) {
@@ -122,47 +169,60 @@ void Engine::start_film(Progress& job) {
     pool_.run(job.job.height, [&](int y, Worker&) { job.film.clear_row(y); });
 }
 
-void Engine::render_next(Progress& job) {
-  const auto start = Clock::now();
-  const Scene& scene = *job.job.scene;
+void Engine::render_next(Progress& job, std::size_t jobs) {
   const double cpu_before = job.statistics.cpu_seconds;
-  double pixels = static_cast<double>(job.job.width) * job.job.height;
-  bool complete = true;
-  if (job.divisor == 0) {
-    // As fine as fits the time that a first look may take.
-    const double affordable = kFirstLookSeconds * pool_.threads() / seconds_per_ray_;
-    job.divisor = 1;
+  const double rays = job.divisor == 1 ? render_slice(job, jobs) : render_coarsely(job, jobs);
+  if (rays > 0) seconds_per_ray_[job.index] = std::max((job.statistics.cpu_seconds - cpu_before) / rays, 1e-9);
+}
+
+double Engine::render_coarsely(Progress& job, std::size_t jobs) {
+  const auto start = Clock::now();
+  const int width = job.job.width, height = job.job.height;
+  const double pixels = static_cast<double>(width) * height;
+  const bool first = job.divisor == 0;
+  if (first) {
+    first_look_ = job.index + 1;
+    // As fine as fits the time that a first look may take, but coarse even where the full picture would fit: it is
+    // always completed, whatever it turns out to cost.
+    const double affordable =
+        kFirstLookSeconds / static_cast<double>(jobs) * pool_.threads() / seconds_per_ray_[job.index];
+    job.divisor = 2;
     while (job.divisor < kMaxDivisor && pixels / (job.divisor * job.divisor) > affordable) job.divisor *= 2;
-    // A first look is coarse even where the full picture would fit: it must always be completed, whatever it costs.
-    job.divisor = std::max(job.divisor, 2);
-    Image image;
-    render_coarse(scene, *job.integrator, job.job.width, job.job.height, job.divisor, image, pool_, {});
-    account(job, start);
-    pixels /= job.divisor * job.divisor;
-    publish(job, {std::move(image)}, job.divisor);
-    job.divisor /= 2;
-  } else if (job.divisor > 1) {
-    Image image;
-    complete = render_coarse(scene, *job.integrator, job.job.width, job.job.height, job.divisor, image, pool_,
-                             [this] { return wishes_changed(); });
-    account(job, start);
-    pixels /= job.divisor * job.divisor;
-    if (complete) {
-      publish(job, {std::move(image)}, job.divisor);
-      job.divisor /= 2;
-    }
-  } else {
-    const auto sample = static_cast<std::uint32_t>(job.statistics.samples_per_pixel);
-    if (sample == 0) start_film(job);
-    complete = render_pass(scene, *job.integrator, sample, job.film, pool_, [this] { return wishes_changed(); });
-    account(job, start);
-    if (complete) {
-      ++job.statistics.samples_per_pixel;
-      if (Clock::now() - job.published >= kLeastPublishInterval || job.finished())
-        publish(job, view_of(job.film, pool_), 1);
-    }
   }
-  if (complete) seconds_per_ray_ = std::max((job.statistics.cpu_seconds - cpu_before) / pixels, 1e-9);
+  Image image;
+  const bool complete = render_coarse(*job.job.scene, *job.integrator, width, height, job.divisor, image, pool_,
+                                      first ? Cancelled() : cancelled());
+  account(job, start);
+  if (!complete) return 0;
+  publish(job, {std::move(image)}, job.divisor);
+  const double rays = pixels / (job.divisor * job.divisor);
+  job.divisor /= 2;
+  return rays;
+}
+
+double Engine::render_slice(Progress& job, std::size_t jobs) {
+  const auto start = Clock::now();
+  const int width = job.job.width, height = job.job.height, tiles = tile_count(width, height);
+  const auto sample = static_cast<std::uint32_t>(job.statistics.samples_per_pixel);
+  if (sample == 0 && job.next_tile == 0) start_film(job);
+  TileRange turn{job.next_tile, tiles};
+  if (jobs > 1) {
+    const double seconds_per_tile = kTileSize * kTileSize * seconds_per_ray_[job.index];
+    const double affordable = kTurnSeconds * pool_.threads() / seconds_per_tile;
+    if (affordable < tiles) turn.end = std::min(tiles, turn.first + std::max(pool_.threads(), int(affordable)));
+  }
+  const bool complete = render_pass(*job.job.scene, *job.integrator, sample, job.film, pool_, cancelled(), turn);
+  account(job, start);
+  job.spoiled |= !complete;
+  if (!complete) return 0;
+  job.next_tile = turn.end;
+  if (job.next_tile == tiles) {
+    job.next_tile = 0;
+    ++job.statistics.samples_per_pixel;
+    if (Clock::now() - job.published >= kLeastPublishInterval || job.finished())
+      publish(job, view_of(job.film, pool_), 1);
+  }
+  return static_cast<double>(width) * height * (turn.end - turn.first) / tiles;
 }
 
 void Engine::publish(Progress& job, FilmView view, int divisor) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 
+#include "renderer/engine/fair_share.h"
 #include "renderer/engine/pass.h"
 #include "renderer/scene/scene.h"
 
@@ -12,7 +13,7 @@ namespace brume {
 /// What has been spent on a picture.
 struct RenderStatistics {
   int samples_per_pixel = 0;
-  double wall_seconds = 0;  ///< since the scene was taken up, without pauses
+  double wall_seconds = 0;  ///< of the turns that this picture had
   double cpu_seconds = 0;   ///< of the render threads, on this picture
   RayStatistics rays;
   std::size_t pool_high_water_bytes = 0;  ///< of the thread that needed most
@@ -35,23 +36,34 @@ struct Job {
   std::shared_ptr<const Scene> scene;
   int width = 0, height = 0;
   int max_samples = 1 << 24;  ///< per pixel
+
+  bool operator==(const Job&) const = default;  ///< the very same scene
+};
+
+struct EngineOptions {
+  int threads = 0;                        ///< 0: as many as the machine has
+  std::function<void()> on_picture = {};  ///< called from a render thread after a picture is published; must not block
+  WorkClock clock = {};                   ///< as WorkerPool's
 };
 
 /// Owns the render threads. The caller's thread (the UI) never waits: submit() leaves a wish, the newest wins and is
 /// taken up as soon as the pass under way has been cancelled (within a row of a tile) or, if that is the first coarse
 /// pass of an edit, completed and published; so pictures keep coming while edits do.
-/// Jobs share the threads in turn: the one with the fewest samples is next.
+/// Several jobs take turns of a tenth of a second, in the middle of a pass if need be, so that a slow one does not keep
+/// the others waiting. The picture of each is bit for bit what it is when rendered alone.
 class Engine {
  public:
-  /// @param threads  0: as many as the machine has
-  /// @param on_picture  called from a render thread when a picture has been published; must not block
-  explicit Engine(int threads = 0, std::function<void()> on_picture = {});
+  explicit Engine(const EngineOptions& options = {});
   ~Engine();
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  /// Replaces all jobs.
-  void submit(std::vector<Job> jobs);
+  /// Replaces all jobs. What is the same as before keeps its samples, whatever its place in the list, unless
+  /// everything is to start again.
+  void submit(std::vector<Job> jobs, bool restart = false);
+
+  /// How jobs share the threads from now on.
+  void set_share(Share share);
 
   /// Samples are kept; edits made meanwhile are still shown coarsely.
   void pause(bool paused);
@@ -66,8 +78,13 @@ class Engine {
   struct Progress;  // of one job
 
   void direct(const std::stop_token& stop);
-  bool wishes_changed() const;
-  void render_next(Progress& job);
+  std::optional<std::size_t> next_job(const std::vector<Progress>& jobs) const;
+  void take_up_wishes(std::vector<Progress>& jobs);
+  Cancelled cancelled() const;
+  void render_next(Progress& job, std::size_t jobs);
+  /// Both return the number of camera rays, 0 when they were cancelled.
+  double render_coarsely(Progress& job, std::size_t jobs);
+  double render_slice(Progress& job, std::size_t jobs);
   void start_film(Progress& job);
   void publish(Progress& job, FilmView view, int divisor);
   void account(Progress& job, std::chrono::steady_clock::time_point start);
@@ -77,15 +94,18 @@ class Engine {
   mutable std::mutex mutex_;  // guards the members up to the next comment
   std::condition_variable_any changed_;
   std::vector<Job> wishes_;
-  std::uint64_t wish_number_ = 0;
+  bool wished_ = false, restart_ = false;  // there are wishes to take up; they want nothing kept
+  std::optional<Job> running_;             // has a turn now
+  Share share_ = Share::EqualTime;
   bool paused_ = false;
   std::vector<std::shared_ptr<const Picture>> pictures_;
 
-  std::atomic<std::uint64_t> newest_wish_ = 0;  // = wish_number_, for workers
+  std::atomic<bool> cancel_ = false;  // what has a turn now is not wanted any more
   std::atomic<bool> stopping_ = false;
-  std::uint64_t current_wish_ = 0;  // what the director works on
-  double seconds_per_ray_;          // CPU cost of a camera ray, measured on the last pass
-  std::jthread director_;           // last: it ends before what it uses
+  // The rest is the director's own.
+  std::size_t first_look_ = 0;           // job that may show its first picture next
+  std::vector<double> seconds_per_ray_;  // CPU cost of a camera ray of each job, measured on its last turn
+  std::jthread director_;                // last: it ends before what it uses
 };
 
 /// The same passes, one after the other, on the caller's thread and the pool's: the batch renderer, and what tests

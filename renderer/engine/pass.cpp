@@ -15,9 +15,12 @@ struct Grid {
 
 /// Calls pixel(x, y, worker) for every pixel.  @return false when it was cancelled
 template <class Pixel>
-bool for_each_pixel(const Grid& grid, WorkerPool& pool, const Cancelled& cancelled, const Pixel& pixel) {
+bool for_each_pixel(const Grid& grid, WorkerPool& pool, const Cancelled& cancelled, TileRange tiles,
+                    const Pixel& pixel) {
   std::atomic<bool> stopped = false;
-  pool.run(grid.columns() * grid.rows(), [&](int tile, Worker& worker) {
+  const int end = std::min(tiles.end, grid.columns() * grid.rows());
+  pool.run(std::max(end - tiles.first, 0), [&](int i, Worker& worker) {
+    const int tile = tiles.first + i;
     const int x0 = tile % grid.columns() * kTileSize, y0 = tile / grid.columns() * kTileSize;
     for (int y = y0; y < std::min(y0 + kTileSize, grid.height); ++y) {
       if (stopped || (cancelled && cancelled())) {
@@ -44,12 +47,17 @@ Color sample_pixel(const Scene& scene, const Integrator& integrator, const Grid&
 
 }  // namespace
 
+int tile_count(int width, int height) {
+  const Grid grid{width, height};
+  return grid.columns() * grid.rows();
+}
+
 bool render_pass(const Scene& scene, const Integrator& integrator, std::uint32_t sample, Film& film, WorkerPool& pool,
-                 const Cancelled& cancelled) {
+                 const Cancelled& cancelled, TileRange tiles) {
   const Grid grid{film.width(), film.height()};
   const Sampler pass(scene.render.sampler, scene.render.seed, 0, sample);
   const Sampler twin_pass(scene.render.sampler, scene.render.seed ^ kTwinSeed, 0, sample);
-  return for_each_pixel(grid, pool, cancelled, [&](int x, int y, Worker& worker) {
+  return for_each_pixel(grid, pool, cancelled, tiles, [&](int x, int y, Worker& worker) {
     if (!film.add_sample(x, y, sample_pixel(scene, integrator, grid, x, y, pass, worker)))
       ++worker.statistics.non_finite;
     if (Film::has_twin(x, y))
@@ -62,7 +70,7 @@ bool render_coarse(const Scene& scene, const Integrator& integrator, int width, 
   const Grid grid{(width + divisor - 1) / divisor, (height + divisor - 1) / divisor};
   const Sampler pass(scene.render.sampler, scene.render.seed, 0, 0);
   image = Image(grid.width, grid.height);
-  return for_each_pixel(grid, pool, cancelled, [&](int x, int y, Worker& worker) {
+  return for_each_pixel(grid, pool, cancelled, {}, [&](int x, int y, Worker& worker) {
     const Color c = sample_pixel(scene, integrator, grid, x, y, pass, worker);
     if (is_finite(c))
       image.at(x, y) = c;

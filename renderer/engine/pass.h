@@ -16,11 +16,18 @@ inline constexpr int kTileSize = 32;
 /// Asked once per row of a tile, from every worker; true gives the pass up.
 using Cancelled = std::function<bool()>;
 
-/// Adds sample number `sample` to every pixel of the film, whose size is the picture's. A pixel's samples depend on
+/// Some of a picture's tiles, which are numbered by rows.
+struct TileRange {
+  int first = 0, end = 1 << 30;  ///< beyond the last tile: up to it
+};
+int tile_count(int width, int height);
+
+/// Adds sample number `sample` to the pixels of the film, whose size is the picture's. A pixel's samples depend on
 /// the scene, its position and the sample number only, so any number of threads gives the same bits.
+/// @param tiles  a pass may be made in slices
 /// @return false when it was cancelled; the film then holds part of the pass
 bool render_pass(const Scene& scene, const Integrator& integrator, std::uint32_t sample, Film& film, WorkerPool& pool,
-                 const Cancelled& cancelled);
+                 const Cancelled& cancelled, TileRange tiles = {});
 
 /// A picture of the same view, smaller by `divisor` in width and height (rounded up), one sample per pixel.
 /// @param width, height  of the full picture.  @return false when it was cancelled

@@ -26,7 +26,9 @@ void flush_denormals() {
 
 }  // namespace
 
-WorkerPool::WorkerPool(int threads) : workers_(static_cast<std::size_t>(threads > 0 ? threads : hardware_threads())) {
+WorkerPool::WorkerPool(int threads, WorkClock clock)
+    : workers_(static_cast<std::size_t>(threads > 0 ? threads : hardware_threads())),
+      clock_(clock ? std::move(clock) : [](const Worker&) { return thread_cpu_seconds(); }) {
   for (Worker& worker : workers_)
     threads_.emplace_back([this, &worker](const std::stop_token& stop) { serve(stop, worker); });
 }
@@ -44,9 +46,9 @@ void WorkerPool::serve(const std::stop_token& stop, Worker& worker) {
     const int count = count_;
     lock.unlock();
 
-    const double before = thread_cpu_seconds();
+    const double before = clock_(worker);
     for (int i = next_++; i < count; i = next_++) body(i, worker);
-    worker.cpu_seconds += thread_cpu_seconds() - before;
+    worker.cpu_seconds += clock_(worker) - before;
 
     lock.lock();
     if (--working_ == 0) done_.notify_all();

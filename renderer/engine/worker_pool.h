@@ -20,12 +20,16 @@ struct alignas(128) Worker {  // two cache lines, which are fetched in pairs: no
   double cpu_seconds = 0;  ///< of this thread, inside loops
 };
 
+/// Seconds of work that a worker has done, from any beginning; read by the worker's own thread.
+using WorkClock = std::function<double(const Worker&)>;
+
 /// A fixed set of threads that run a loop together. The results of a loop whose iterations write only what is theirs do
 /// not depend on the number of threads.
 class WorkerPool {
  public:
   /// @param threads  0: as many as the machine has
-  explicit WorkerPool(int threads = 0);
+  /// @param clock  none: the processor time of the thread; tests count work instead
+  explicit WorkerPool(int threads = 0, WorkClock clock = {});
   ~WorkerPool();
 
   int threads() const { return static_cast<int>(workers_.size()); }
@@ -45,6 +49,7 @@ class WorkerPool {
   void serve(const std::stop_token& stop, Worker& worker);
 
   std::vector<Worker> workers_;
+  WorkClock clock_;
   std::mutex mutex_;
   std::condition_variable_any start_, done_;
   const std::function<void(int, Worker&)>* body_ = nullptr;

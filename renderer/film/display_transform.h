@@ -16,6 +16,8 @@ struct DisplaySettings {
   DisplayCurve curve = DisplayCurve::Srgb;
   float gamma = 2.2f;   ///< of DisplayCurve::Gamma; [1, 4], clamped; not a number counts as 2.2
   bool dither = false;  ///< ordered dithering by less than one code value, against banding in smooth haze
+
+  bool operator==(const DisplaySettings&) const = default;
 };
 
 /// Opto-electronic transfer of sRGB, IEC 61966-2-1:1999, section 5.2; odd around 0 is not continued: x < 0 gives 0.

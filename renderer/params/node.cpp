@@ -56,6 +56,7 @@ int Node::integer(std::string_view key) const { return static_cast<int>(std::get
 double Node::number(std::string_view key) const { return std::get<double>(value(key)); }
 const std::string& Node::text(std::string_view key) const { return std::get<std::string>(value(key)); }
 const Numbers& Node::numbers(std::string_view key) const { return std::get<Numbers>(value(key)); }
+const Settings& Node::settings(std::string_view key) const { return std::get<Settings>(value(key)); }
 
 Vec3d Node::vec3(std::string_view key) const {
   const Numbers& v = numbers(key);

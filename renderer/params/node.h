@@ -62,6 +62,7 @@ class Node {
   double number(std::string_view key) const;
   const std::string& text(std::string_view key) const;  ///< text, file and choice
   const Numbers& numbers(std::string_view key) const;
+  const Settings& settings(std::string_view key) const;
   Vec3d vec3(std::string_view key) const;
   Color color(std::string_view key) const;
 

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <set>
 
 namespace brume {
 
@@ -86,6 +87,9 @@ Param numbers(std::string key, std::string label, Numbers value) {
 Param matrix(std::string key, std::string label) {
   return make(std::move(key), std::move(label), ParamType::Matrix, Numbers{});
 }
+Param settings(std::string key, std::string label) {
+  return make(std::move(key), std::move(label), ParamType::SettingList, Settings{});
+}
 
 }  // namespace param
 
@@ -147,6 +151,12 @@ bool acceptable(const Param& p, const Value& value) {
       const auto* v = std::get_if<std::string>(&value);
       return v && !(p.required && v->empty());
     }
+    case ParamType::SettingList: {
+      const auto* v = std::get_if<Settings>(&value);
+      if (!v) return false;
+      std::set<std::string> paths{""};
+      return std::all_of(v->begin(), v->end(), [&](const Setting& s) { return paths.insert(s.path).second; });
+    }
     case ParamType::Choice: {
       const auto* v = std::get_if<std::string>(&value);
       return v && std::any_of(p.choices.begin(), p.choices.end(), [&](const Choice& c) { return c.key == *v; });
@@ -192,6 +202,20 @@ std::optional<Numbers> parse_numbers(std::string_view s) {
     if (comma == std::string_view::npos) return list;
     s = s.substr(comma + 1);
   }
+}
+
+/// "render.step_size=0.1; render.bounces=2"
+std::optional<Settings> parse_settings(std::string_view s) {
+  Settings settings;
+  while (!trim(s).empty()) {
+    const auto end = std::min(s.find(';'), s.size());
+    const std::string_view one = s.substr(0, end);
+    const auto equals = one.find('=');
+    if (equals == std::string_view::npos) return std::nullopt;
+    settings.push_back({std::string(trim(one.substr(0, equals))), std::string(trim(one.substr(equals + 1)))});
+    s = s.substr(std::min(end + 1, s.size()));
+  }
+  return settings;
 }
 
 /// Edits (insert, delete, replace, swap of neighbours) that turn a into b.
@@ -261,6 +285,9 @@ std::string expectation(const Param& p) {
     case ParamType::Matrix:
       text = "16 numbers (a 4x4 matrix by rows) or an empty list";
       break;
+    case ParamType::SettingList:
+      text = "settings of parameters, each once, such as render.step_size=0.1";
+      break;
   }
   if (p.automatic) text += ", or auto";
   return text;
@@ -306,6 +333,10 @@ Result<Value> parse_value(const Param& p, std::string_view text) {
   } else if (p.type == ParamType::Text || p.type == ParamType::Grid || p.type == ParamType::File ||
              p.type == ParamType::Choice) {
     value = std::string(p.type == ParamType::Choice ? word : text);
+  } else if (p.type == ParamType::SettingList) {
+    auto settings = parse_settings(word);
+    if (!settings) return wrong();
+    value = std::move(*settings);
   } else if (p.type == ParamType::Resolution && word.find('x') != std::string_view::npos) {
     const auto x = word.find('x');
     const auto width = parse_number(word.substr(0, x)), height = parse_number(word.substr(x + 1));
@@ -334,6 +365,11 @@ std::string format_value(const Value& value) {
       std::vector<std::string> parts;
       for (double x : v) parts.push_back(number_text(x));
       return "[" + join(parts) + "]";
+    }
+    std::string operator()(const Settings& v) const {
+      std::vector<std::string> parts;
+      for (const Setting& s : v) parts.push_back(s.path + "=" + s.value);
+      return join(parts, "; ");
     }
   };
   return std::visit(Format{}, value);

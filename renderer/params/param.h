@@ -20,22 +20,31 @@ struct Auto {
 };
 
 using Numbers = std::vector<double>;
-using Value = std::variant<Auto, bool, std::int64_t, double, std::string, Numbers>;
+
+/// One parameter of a scene set to another value, both as --set takes them: "render.step_size", "0.1".
+struct Setting {
+  std::string path, value;
+  bool operator==(const Setting&) const = default;
+};
+using Settings = std::vector<Setting>;
+
+using Value = std::variant<Auto, bool, std::int64_t, double, std::string, Numbers, Settings>;
 
 enum class ParamType {
   Bool,
   Int,
   Number,
   Text,
-  File,        ///< text: a path, absolute or relative to the scene file
-  Grid,        ///< text: name of a grid in the file that the same object's "file" names; empty for none
-  Choice,      ///< text: one of Param::choices
-  Resolution,  ///< two whole numbers
-  Point,       ///< three numbers, world units
-  Vector,      ///< three numbers
-  Color,       ///< three linear values
-  NumberList,  ///< any count of numbers
-  Matrix,      ///< 16 numbers by rows (a 4x4 affine matrix), or none
+  File,         ///< text: a path, absolute or relative to the scene file
+  Grid,         ///< text: name of a grid in the file that the same object's "file" names; empty for none
+  Choice,       ///< text: one of Param::choices
+  Resolution,   ///< two whole numbers
+  Point,        ///< three numbers, world units
+  Vector,       ///< three numbers
+  Color,        ///< three linear values
+  NumberList,   ///< any count of numbers
+  Matrix,       ///< 16 numbers by rows (a 4x4 affine matrix), or none
+  SettingList,  ///< settings of other parameters, each named by its path from the root
 };
 
 /// How much of the work done so far a change throws away.
@@ -96,6 +105,7 @@ Param vector(std::string key, std::string label, double x, double y, double z);
 Param color(std::string key, std::string label, double r, double g, double b);
 Param numbers(std::string key, std::string label, Numbers value);
 Param matrix(std::string key, std::string label);
+Param settings(std::string key, std::string label);
 
 }  // namespace param
 
@@ -105,7 +115,7 @@ std::string expectation(const Param& param);
 /// Type and range. The error says what was found and what was expected; its source names only the key.
 Result<void> validate(const Param& param, const Value& value);
 
-/// Reads what a person types: 0.3, true, auto, mis, 1,2,3 or [1, 2, 3]. Validates.
+/// Reads what a person types: 0.3, true, auto, mis, 1,2,3 or [1, 2, 3], a.b=1; c.d=2. Validates.
 Result<Value> parse_value(const Param& param, std::string_view text);
 
 /// A short text that parse_value reads back as the same value. Numbers have the fewest digits that do; whole ones below

@@ -3,6 +3,7 @@
 #include "renderer/lights/registry.h"
 #include "renderer/lights/surface_light.h"
 #include "renderer/phase/registry.h"
+#include "renderer/scene/compare.h"
 #include "renderer/scene/light_budget.h"
 #include "renderer/scene/scene.h"
 #include "renderer/scene/volume.h"
@@ -19,7 +20,8 @@ ParamTable scene_table(const Family& render_family) {
            {"render", "Render", "How light is computed.", &render_family},
            {"volumes", "Volumes", "Smoke, fire, cloud and fog.", &volume_family(), true},
            {"surfaces", "Surfaces", "What stands among the volumes and stops light.", &surface_family(), true},
-           {"lights", "Lights", "What lights the volumes.", &light_family(), true}}};
+           {"lights", "Lights", "What lights the volumes.", &light_family(), true},
+           {"compare", "Compare", "Variants of the scene that are rendered side by side.", &compare_family()}}};
 }
 
 namespace {
@@ -123,6 +125,7 @@ float automatic_step(const Scene& scene) {
 }  // namespace
 
 Result<std::shared_ptr<const Scene>> commit(const Node& description, SceneCache& cache, const CommitOptions& options) {
+  if (const auto variants = variants_of(description); !variants) return variants.error();
   const LoadOptions load{.progress = options.progress, .cancel = options.cancel};
   auto scene = std::make_shared<Scene>();
   scene->generation = options.generation;

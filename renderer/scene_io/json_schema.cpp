@@ -72,6 +72,8 @@ JsonValue type_schema(const Param& p) {
       return list_schema(number_schema(p, false));
     case ParamType::Matrix:
       return any_of({list_schema(number_schema(p, false), 16), list_schema(JsonValue::object(), 0)});
+    case ParamType::SettingList:
+      return object_with("type", "object");
   }
   return JsonValue::object();
 }

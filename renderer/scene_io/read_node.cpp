@@ -159,9 +159,39 @@ class NodeReader {
       case ParamType::File:
         if (json.kind != Kind::Text || json.text.find('\0') != std::string::npos) return wrong();
         return Value(absolute_path(json.text, context_.base_dir));
+      case ParamType::SettingList:
+        return read_settings(param, json, path);
       default:
         return read_numbers(param, json, path);
     }
+  }
+
+  /// {"render.step_size": 0.1, "render.integrator": "ray_march"}: values as they would stand at their own place.
+  Result<Value> read_settings(const Param& param, const JsonValue& json, const std::string& path) const {
+    if (json.kind != Kind::Object)
+      return error_at(json, path, "found " + describe(json) + ", expected " + expectation(param));
+    Settings settings;
+    for (const JsonMember& member : json.members) {
+      const auto text = setting_text(member.value);
+      if (!text)
+        return error_at(member.value, below(path, member.key),
+                        "found " + describe(member.value) + ", expected the value of a parameter");
+      settings.push_back({member.key, *text});
+    }
+    return Value(std::move(settings));
+  }
+
+  static std::optional<std::string> setting_text(const JsonValue& json) {
+    if (json.kind == Kind::Text) return json.text;
+    if (json.kind == Kind::Bool) return format_value(json.boolean);
+    if (json.kind == Kind::Number) return format_value(json.number);
+    if (json.kind != Kind::Array) return std::nullopt;
+    Numbers numbers;
+    for (const JsonValue& item : json.items) {
+      if (item.kind != Kind::Number) return std::nullopt;
+      numbers.push_back(item.number);
+    }
+    return format_value(numbers);
   }
 
   Result<Value> read_numbers(const Param& param, const JsonValue& json, const std::string& path) const {

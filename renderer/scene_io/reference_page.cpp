@@ -67,6 +67,8 @@ std::string type_name(const Param& p) {
       return "list of numbers";
     case ParamType::Matrix:
       return "16 numbers or none";
+    case ParamType::SettingList:
+      return "settings: an object of paths and values";
   }
   return "";
 }

@@ -89,10 +89,10 @@ std::string folder_of(const std::string& path) {
 Result<void> check_utf8(const Node& node, const std::string& path) {
   const auto below = [&](const std::string& key) { return path.empty() ? key : path + "." + key; };
   for (const Param& p : node.table().params) {
-    const auto* text = std::get_if<std::string>(&node.value(p.key));
-    if (text && !is_utf8(*text))
+    const std::string text = format_value(node.value(p.key));
+    if (!is_utf8(text))
       return bad_input(
-          "found " + quote_for_message(*text) + ", which is not UTF-8 and cannot be kept in a scene file; rename it",
+          "found " + quote_for_message(text) + ", which is not UTF-8 and cannot be kept in a scene file; rename it",
           {"", 0, 0, below(p.key)});
   }
   for (const Slot& s : node.table().slots) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "renderer/scene_io/json_print.h"
+#include "renderer/scene_io/json_tree.h"
 
 namespace brume {
 namespace {
@@ -52,6 +53,30 @@ JsonValue value_to_json(const Value& value) {
     JsonValue operator()(double v) const { return v; }
     JsonValue operator()(const std::string& v) const { return v; }
     JsonValue operator()(const Numbers& v) const { return JsonValue::array({v.begin(), v.end()}); }
+    JsonValue operator()(const Settings& v) const {
+      JsonValue object = JsonValue::object();
+      for (const Setting& s : v) object.add(s.path, setting_value(s.value));
+      return object;
+    }
+    /// A text that is JSON for a truth value, a number or a list stands as that: it is read back as the same text.
+    static JsonValue setting_value(const std::string& text) {
+      auto json = parse_json(text, "");
+      if (!json) return text;
+      switch (json->kind) {
+        case JsonValue::Kind::Bool:
+          return json->boolean;
+        case JsonValue::Kind::Number:
+          return format_value(json->number) == text ? JsonValue(json->number) : JsonValue(text);
+        case JsonValue::Kind::Array: {
+          Numbers numbers;
+          for (const JsonValue& item : json->items)
+            if (item.kind == JsonValue::Kind::Number) numbers.push_back(item.number);
+          return format_value(numbers) == text ? value_to_json(numbers) : JsonValue(text);
+        }
+        default:
+          return text;
+      }
+    }
   };
   return std::visit(ToJson{}, value);
 }

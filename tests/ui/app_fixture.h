@@ -56,9 +56,11 @@ class AppFixture : public testing::Test {
     if (!session_->idle()) return false;
     if (!session_->scene()) return true;  // nothing to render, or nothing that can be
     if (!session_->problem().empty()) return true;
+    if (samples_ != kEndless) return session_->finished();
     if (!session_->up_to_date()) return false;
-    const auto picture = session_->picture();  // after the question: before it there may have been none
-    return picture->finished || (samples_ == kEndless && picture->divisor == 1);
+    for (std::size_t i = 0; i < session_->shown().size(); ++i)
+      if (session_->picture(i)->divisor > 1) return false;
+    return true;
   }
 
   /// Mean of all channels of the picture that is shown.

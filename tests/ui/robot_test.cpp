@@ -82,7 +82,7 @@ TEST_F(RobotTest, DragsInAPictureWithEveryButton) {
   int doubles = 0;
   ImVec2 window_position{0, 0};
   show([&] {
-    ui::image("viewport", ImGui::GetIO().Fonts->TexID, {300, 200});
+    ui::canvas("viewport", {300, 200});
     if (ImGui::IsItemActive())
       for (int button = 0; button < 3; ++button)
         if (ImGui::IsMouseDown(button)) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <thread>
 
 #include "renderer/engine/pass.h"
@@ -142,7 +143,7 @@ TEST(RenderCoarse, IsTheSameViewWithFewerPixels) {
 TEST(Engine, GivesTheSameBitsAsTheBatchRenderer) {
   const auto scene = scene_of(3);
   for (const int threads : {1, 3}) {
-    Engine engine(threads);
+    Engine engine({.threads = threads});
     engine.submit({{scene, kWidth, kHeight, 6}});
     ASSERT_TRUE(eventually([&] { return finished(engine, 0, 3); }));
     const auto picture = engine.picture();
@@ -155,7 +156,7 @@ TEST(Engine, GivesTheSameBitsAsTheBatchRenderer) {
 }
 
 TEST(Engine, HasNoPictureBeforeTheFirstAndNoneOfJobsThatDoNotExist) {
-  Engine engine(1);
+  Engine engine({.threads = 1});
   EXPECT_EQ(engine.picture(), nullptr);
   engine.submit({{scene_of(1), kWidth, kHeight, 1}});
   ASSERT_TRUE(eventually([&] { return finished(engine, 0, 1); }));
@@ -165,7 +166,7 @@ TEST(Engine, HasNoPictureBeforeTheFirstAndNoneOfJobsThatDoNotExist) {
 TEST(Engine, SeveralJobsAreAllFinishedAndEachIsItsOwn) {
   const std::shared_ptr<const Scene> scenes[] = {scene_of(5, 1), scene_of(5, 3, "0"), scene_of(5, 0.2, "2")};
   const int samples[] = {3, 5, 1}, widths[] = {40, 17, 64}, heights[] = {20, 33, 64};
-  Engine engine(2);
+  Engine engine({.threads = 2});
   std::vector<Job> jobs;
   for (int i = 0; i < 3; ++i) jobs.push_back({scenes[i], widths[i], heights[i], samples[i]});
   engine.submit(jobs);
@@ -177,9 +178,79 @@ TEST(Engine, SeveralJobsAreAllFinishedAndEachIsItsOwn) {
   }
 }
 
+/// Work instead of time, so that a test depends on no machine: one unit for each ray, ten for each look-up or segment.
+double counted_work(const Worker& worker) {
+  const RayStatistics& s = worker.statistics;
+  return 1e-8 * double(s.rays + s.shadow_rays + 10 * (s.march.lookups + s.march.segments));
+}
+
+TEST(Engine, EqualTimeIsEqualWithinATenth) {
+  std::vector<Job> jobs;
+  for (const char* bounces : {"0", "2", "9"}) jobs.push_back({scene_of(7, 1, bounces), 160, 120});
+  Engine engine({.threads = 2, .on_picture = {}, .clock = counted_work});
+  engine.submit(jobs);
+  const auto seconds = [&](std::size_t i) {
+    const auto p = engine.picture(i);
+    return p ? p->statistics.cpu_seconds : 0;
+  };
+  ASSERT_TRUE(eventually([&] { return seconds(0) > 2 && seconds(1) > 2 && seconds(2) > 2; }));
+  engine.pause(true);
+  std::this_thread::sleep_for(kSlow * 50ms);
+  // Published is what whole passes took; the dearest pass of the three takes less than a tenth of all.
+  const double most = std::max({seconds(0), seconds(1), seconds(2)}),
+               least = std::min({seconds(0), seconds(1), seconds(2)});
+  EXPECT_LT(most, 1.1 * least) << seconds(0) << " " << seconds(1) << " " << seconds(2);
+  EXPECT_GT(engine.picture(0)->statistics.samples_per_pixel, 2 * engine.picture(2)->statistics.samples_per_pixel)
+      << "the cheap one has more samples for its time";
+}
+
+TEST(Engine, EqualSamplesAreEqualWithinOne) {
+  std::vector<Job> jobs;
+  for (const char* bounces : {"0", "9"}) jobs.push_back({scene_of(7, 1, bounces), 160, 120});
+  Engine engine({.threads = 2, .on_picture = {}, .clock = counted_work});
+  engine.set_share(Share::EqualSamples);
+  engine.submit(jobs);
+  ASSERT_TRUE(eventually([&] {
+    const auto p = engine.picture(1);
+    return p && p->statistics.samples_per_pixel >= 20;
+  }));
+  engine.pause(true);
+  std::this_thread::sleep_for(kSlow * 50ms);
+  EXPECT_NEAR(engine.picture(0)->statistics.samples_per_pixel, engine.picture(1)->statistics.samples_per_pixel, 2);
+}
+
+TEST(Engine, WhatAnEditLeavesAsItWasKeepsItsSamplesInWhateverPlace) {
+  const auto kept = scene_of(1), edited = scene_of(1, 3);
+  Engine engine({.threads = 2});
+  engine.submit({{kept, 64, 64, 9}, {edited, 64, 64, 9}});
+  ASSERT_TRUE(eventually([&] { return finished(engine, 0, 1) && finished(engine, 1, 1); }));
+  const auto before = engine.picture(0);
+  const auto next = scene_of(2, 5);
+  engine.submit({{next, 64, 64, 9}, {kept, 64, 64, 9}});
+  ASSERT_TRUE(eventually([&] { return finished(engine, 0, 2); }));
+  EXPECT_EQ(engine.picture(1), before);
+  EXPECT_TRUE(engine.picture(0)->image == batch(*next, 9, 2, 64, 64));
+  engine.submit({{next, 64, 64, 9}, {kept, 64, 64, 9}}, true);
+  ASSERT_TRUE(eventually([&] { return finished(engine, 1, 1) && engine.picture(1) != before; })) << "a restart";
+  EXPECT_TRUE(engine.picture(1)->image == before->image);
+}
+
+TEST(Engine, AStormOfEditsOfOneJobDoesNotHarmTheOther) {
+  const auto kept = scene_of(1);
+  Engine engine({.threads = 2});
+  for (std::uint64_t g = 2; g < 60; ++g) {
+    engine.submit({{kept, 100, 80, 40}, {scene_of(g, double(g % 5)), 100, 80, 40}});
+    if (g % 4 == 0) std::this_thread::sleep_for(3ms);
+    // Wanted away and wanted back at once, perhaps in the middle of a pass.
+    if (g % 7 == 0) engine.submit({{scene_of(g), 100, 80, 40}});
+  }
+  ASSERT_TRUE(eventually([&] { return finished(engine, 0, 1) && finished(engine, 1, 59); }));
+  EXPECT_TRUE(engine.picture(0)->image == batch(*kept, 40, 2, 100, 80));
+}
+
 TEST(Engine, APauseKeepsTheSamplesAndNothingIsRenderedInIt) {
   const auto scene = scene_of(2);
-  Engine engine(2);
+  Engine engine({.threads = 2});
   engine.submit({{scene, kWidth, kHeight, 200}});
   ASSERT_TRUE(eventually([&] {
     const auto p = engine.picture();
@@ -200,7 +271,7 @@ TEST(Engine, APauseKeepsTheSamplesAndNothingIsRenderedInIt) {
 
 // "Edits made meanwhile are still shown coarsely", and every edit's first picture is a coarse one.
 TEST(Engine, AnEditWhilePausedIsShownCoarselyOnceAndNoFurther) {
-  Engine engine(2);
+  Engine engine({.threads = 2});
   engine.pause(true);
   for (std::uint64_t generation = 1; generation <= 5; ++generation) {
     engine.submit({{scene_of(generation, double(generation)), 200, 100, 50}});
@@ -223,7 +294,7 @@ TEST(Engine, AStormOfEditsEndsWithThePictureOfTheNewestAndNeverGoesBack) {
   constexpr std::uint64_t kEdits = 200;
   std::vector<std::shared_ptr<const Scene>> scenes;
   for (std::uint64_t g = 1; g <= kEdits; ++g) scenes.push_back(scene_of(g, 0.5 + double(g % 7)));
-  Engine engine(2);
+  Engine engine({.threads = 2});
   std::atomic<bool> stop = false;
   std::uint64_t newest_seen = 0, pictures = 0;
   bool went_back = false, mislabelled = false;
@@ -258,7 +329,7 @@ TEST(Engine, AStormOfEditsEndsWithThePictureOfTheNewestAndNeverGoesBack) {
 }
 
 TEST(Engine, ANewSizeOrNumberOfJobsReplacesTheOldOnes) {
-  Engine engine(2);
+  Engine engine({.threads = 2});
   engine.submit({{scene_of(1), 30, 20, 2}, {scene_of(1), 10, 10, 2}});
   ASSERT_TRUE(eventually([&] { return finished(engine, 0, 1) && finished(engine, 1, 1); }));
   engine.submit({{scene_of(2), 50, 60, 2}});
@@ -272,7 +343,7 @@ TEST(Engine, ANewSizeOrNumberOfJobsReplacesTheOldOnes) {
 }
 
 TEST(Engine, ThePictureOfTheLastEditStaysUntilTheNextOneIsThere) {
-  Engine engine(2);
+  Engine engine({.threads = 2});
   engine.submit({{scene_of(1), 40, 30, 2}});
   ASSERT_TRUE(eventually([&] { return finished(engine, 0, 1); }));
   engine.submit({{scene_of(2), 40, 30, 2}});
@@ -281,7 +352,7 @@ TEST(Engine, ThePictureOfTheLastEditStaysUntilTheNextOneIsThere) {
 
 TEST(Engine, CanBeDestroyedInTheMiddleOfItsWork) {
   for (int i = 0; i < 20; ++i) {
-    Engine engine(2);
+    Engine engine({.threads = 2});
     engine.submit({{scene_of(1, 1, "5"), 300, 300, 1000}});
     if (i % 2) std::this_thread::sleep_for(std::chrono::milliseconds(i));
   }
@@ -289,7 +360,7 @@ TEST(Engine, CanBeDestroyedInTheMiddleOfItsWork) {
 }
 
 TEST(Engine, ASceneWithoutAnythingIsRenderedToo) {
-  Engine engine(1);
+  Engine engine({.threads = 1});
   engine.submit({{committed(empty_scene(), 1), 8, 8, 2}});
   ASSERT_TRUE(eventually([&] { return finished(engine, 0, 1); }));
   EXPECT_EQ(engine.picture()->image.at(4, 4), Color(0));

@@ -225,6 +225,13 @@ class RandomNodes {
       case ParamType::NumberList:
         v = numbers(random_() % 40);
         break;
+      case ParamType::SettingList:
+        v = Settings{{"render.step_size", "0.25"},
+                     {"render.integrator", text()},
+                     {"a.b", "[1, 2.5, -3]"},
+                     {"c", "true"},
+                     {"d", "007"}};
+        break;
       default:
         v = numbers(3);
         break;

@@ -1,0 +1,65 @@
+#include "app/panels/edit_target.h"
+
+#include <algorithm>
+
+namespace brume {
+
+EditTarget::EditTarget(Session& session, std::optional<std::size_t> variant) : session_(session) {
+  if (variant && *variant < session.description().child("compare").list("variants").size()) variant_ = variant;
+}
+
+Node EditTarget::description() const {
+  if (variant_)
+    if (auto made = variant_of(session_.description(), *variant_)) {
+      // What is compared is still that of the scene.
+      made->description.child("compare") = session_.description().child("compare");
+      return std::move(made->description);
+    }
+  return session_.description();
+}
+
+std::string EditTarget::path_of(const NodePath& object, const std::string& key) const {
+  return object.to_text(session_.description()) + "." + key;
+}
+
+bool EditTarget::goes_to_variant(const NodePath& object, const std::string& key) const {
+  return variant_ && !is_common(path_of(object, key));
+}
+
+bool EditTarget::is_set(const NodePath& object, const std::string& key) const {
+  if (!variant_) return false;
+  const std::string path = path_of(object, key);
+  const Settings& settings = session_.description().child("compare").list("variants")[*variant_].settings("set");
+  return std::any_of(settings.begin(), settings.end(), [&](const Setting& s) { return s.path == path; });
+}
+
+void EditTarget::set(const NodePath& object, const Param& param, const Value& value) const {
+  if (goes_to_variant(object, param.key)) {
+    const std::string path = path_of(object, param.key);
+    session_.change([&](Node& d) { set_in_variant(d, *variant_, path, format_value(value)); });
+    return;
+  }
+  session_.change([&](Node& d) {
+    // Refused values (a widget cannot know every rule) leave the description as it was.
+    if (Node* n = object.find(d)) static_cast<void>(n->set(param.key, value).ok());
+  });
+}
+
+void EditTarget::set_kind(const NodePath& object, const Family& family, const ParamTable& kind) const {
+  if (goes_to_variant(object, family.type_key)) {
+    const std::string path = path_of(object, family.type_key);
+    session_.change([&](Node& d) { set_in_variant(d, *variant_, path, kind.key); });
+    return;
+  }
+  session_.change([&](Node& d) {
+    if (Node* n = object.find(d)) *n = n->converted_to(kind);
+  });
+}
+
+void EditTarget::reset(const NodePath& object, const Param& param) const {
+  if (!goes_to_variant(object, param.key)) return set(object, param, param.default_value);
+  const std::string path = path_of(object, param.key);
+  session_.change([&](Node& d) { unset_in_variant(d, *variant_, path); });
+}
+
+}  // namespace brume
