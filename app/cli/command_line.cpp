@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "app/cli/bench.h"
+#include "app/cli/chart.h"
 #include "app/cli/compare.h"
 #include "app/cli/console.h"
 #include "app/cli/docs.h"
@@ -17,6 +18,7 @@
 #include "app/window/run_window.h"
 #include "renderer/analysis/metric.h"
 #include "renderer/core/simd.h"
+#include "renderer/experiments/sweep_chart.h"
 
 namespace brume {
 namespace {
@@ -178,9 +180,87 @@ Command make_compare(CLI::App& root) {
   return {app, [o] { return run_compare(*o); }};
 }
 
+/// "--steps 0.1,0.2": a list, checked by whoever uses it.
+void add_list(CLI::App& app, const std::string& flag, const std::string& placeholder, std::vector<std::string>& list,
+              const std::string& doc) {
+  app.add_option(flag, list, doc)->delimiter(',')->allow_extra_args(false)->option_text(placeholder);
+}
+
+Command make_chart(CLI::App& root) {
+  auto o = std::make_shared<ChartOptions>();
+  CLI::App* app = add_command(
+      root, "chart", "Measures speed against accuracy and charts one against the other",
+      "FILE -o CHART.svg|.png|.csv [OPTIONS]",
+      "Charts the variants that the scene file compares, or the methods that are named, each against a reference\n"
+      "rendered by an unbiased integrator, which is kept for the next time. Time is processor time of the variant's\n"
+      "own work.\n\n"
+      "Examples:\n"
+      "  brume chart scenes/smoke.json --methods all -o smoke.svg -o smoke.csv\n"
+      "  brume chart scenes/smoke.json --methods product,ray_march --steps 0.02,0.05,0.1 --x step_size\n"
+      "      --y relative_mean_bias -o bias.svg\n"
+      "  brume chart smoke.vdb --methods all --light-samples 1,2,4 --pareto --apply-best fast.json -o front.png");
+  add_file(*app, o->scene.file);
+  app->add_option("-o,--output", o->outputs, "Chart (.svg, .png) or its numbers (.csv); may be repeated")
+      ->required()
+      ->option_text("OUT")
+      ->allow_extra_args(false);
+  add_list(*app, "--variants", "A,B,...", o->variants, "Variants of the scene file, by name (default: all)");
+  add_list(*app, "--methods", "all|M,...", o->methods,
+           "Methods instead: all, integrators by key, or the decoupled one\nby its distance sampling");
+  add_list(*app, "--steps", "S,...", o->steps, "Each with every one of these step sizes");
+  add_list(*app, "--light-samples", "N,...", o->light_samples, "Each with every one of these numbers of light samples");
+  add_list(*app, "--bounces", "N,...", o->bounces, "Each with every one of these numbers of bounces");
+  app->add_option("--x", o->x, "What is along x (default: cpu_seconds): one of\n" + join(sweep_axis_keys()))
+      ->option_text("QUANTITY");
+  app->add_option("--y", o->y, "What is along y (default: rmse)")->option_text("QUANTITY");
+  app->add_option("--title", o->title, "Title of the chart")->option_text("TEXT");
+  add_value(*app, "SECONDS",
+            param::number("budget", "Budget", o->seconds)
+                .between(0.01, 1e6)
+                .in("CPU seconds")
+                .says("Time for each variant; the pass under way is ended"),
+            [o](const Value& v) { o->seconds = std::get<double>(v); });
+  add_value(*app, "N",
+            param::integer("spp", "Samples", 1)
+                .between(1, 1 << 24)
+                .auto_by_default("--budget decides")
+                .says("Most samples per pixel"),
+            [o](const Value& v) { o->samples = to_int(v); });
+  app->add_option("--reference", o->reference, "Picture taken as the truth (default: one is rendered)")
+      ->option_text("EXR");
+  add_value(*app, "SECONDS",
+            param::number("reference-time", "Reference time", o->reference_seconds)
+                .between(0.01, 1e6)
+                .in("CPU seconds")
+                .says("Time for the reference, over all calls"),
+            [o](const Value& v) { o->reference_seconds = std::get<double>(v); });
+  app->add_flag("--pareto", o->front, "Marks the cheapest for their error, and the best");
+  add_value(*app, "ERROR",
+            param::number("target", "Target", 1)
+                .more_than(0)
+                .auto_by_default("none")
+                .says("The best is the cheapest with at most this error; exit code 3 where none is"),
+            [o](const Value& v) { o->target = std::get<double>(v); });
+  app->add_option("--apply-best", o->best, "Writes the scene with the settings of the best")->option_text("OUT.json");
+  app->add_flag("!--dark", o->light, "On a dark ground");
+  add_value(*app, "WxH",
+            param::resolution("chart-size", "Chart size", o->width, o->height)
+                .between(200, 8192)
+                .in("pixels")
+                .says("Size of the chart"),
+            [o](const Value& v) {
+              o->width = static_cast<int>(std::get<Numbers>(v)[0]);
+              o->height = static_cast<int>(std::get<Numbers>(v)[1]);
+            });
+  add_settings(*app, o->scene);
+  add_shorthand(*app, o->scene, "--size", "WxH", "film.resolution", "Size of the pictures (default: the scene's)");
+  add_threads(*app, o->threads);
+  return {app, [o] { return run_chart(*o); }};
+}
+
 std::vector<Command> make_commands(CLI::App& root) {
-  std::vector<Command> commands{make_render(root), make_probe(root),   make_snapshot(root),
-                                make_info(root),   make_compare(root), make_bench(root)};
+  std::vector<Command> commands{make_render(root),  make_probe(root), make_snapshot(root), make_info(root),
+                                make_compare(root), make_chart(root), make_bench(root)};
   commands.push_back(
       {add_command(root, "schema", "Prints the JSON Schema of scene files, for editors", "> brume.schema.json"),
        run_schema});

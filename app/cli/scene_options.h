@@ -16,7 +16,7 @@ struct FlagSetting {
 };
 
 struct SceneOptions {
-  std::string file;               ///< .json, .vdb, .nvdb, or a picture that Brume wrote
+  std::string file;                   ///< .json, .vdb, .nvdb, or a picture that Brume wrote
   std::vector<FlagSetting> settings;  ///< applied in this order
 };
 

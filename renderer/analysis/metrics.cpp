@@ -77,4 +77,15 @@ Result<double> median_of_tiles(const Image& test, const Image& reference, int ti
   return std::sqrt(median);
 }
 
+Result<Errors> errors_of(const Image& test, const Image& reference) {
+  if (std::optional<Error> error = not_comparable(test, reference)) return *error;
+  Errors e;
+  e.rmse = *rmse(test, reference);
+  e.relative_mse = *relative_mse(test, reference);
+  e.mean_bias = *mean_bias(test, reference);
+  if (const Result<double> relative = relative_mean_bias(test, reference)) e.relative_mean_bias = *relative;
+  e.median_of_tiles = *median_of_tiles(test, reference);
+  return e;
+}
+
 }  // namespace brume

@@ -41,4 +41,11 @@ Result<double> relative_mean_bias(const Image& test, const Image& reference);
 /// @param tile_size  in pixels, at least 1, else an error.
 Result<double> median_of_tiles(const Image& test, const Image& reference, int tile_size = 16);
 
+/// The metrics that cost one look at every pixel, together.
+struct Errors {
+  double rmse = 0, relative_mse = 0, mean_bias = 0, relative_mean_bias = 0, median_of_tiles = 0;
+};
+/// Errors as those of the metrics; a black reference has no relative mean bias, which is 0 then.
+Result<Errors> errors_of(const Image& test, const Image& reference);
+
 }  // namespace brume

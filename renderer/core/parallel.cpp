@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <ctime>
 #include <thread>
 #include <vector>
 
@@ -18,14 +19,26 @@ std::size_t last_cache_bytes() {
 
 // Plain threads rather than TBB: the loops are few and coarse (converting a grid), and the thread sanitizer sees
 // through std::thread but not through an uninstrumented libtbb.
-void parallel_for(int n, const std::function<void(int)>& body) {
+double parallel_for(int n, const std::function<void(int)>& body) {
   std::atomic<int> next = 0;
+  std::atomic<double> seconds = 0;
   const auto work = [&] {
+    const double before = thread_cpu_seconds();
     for (int i = next++; i < n; i = next++) body(i);
+    seconds += thread_cpu_seconds() - before;
   };
-  std::vector<std::jthread> helpers;
-  for (int k = 1; k < std::min(n, hardware_threads()); ++k) helpers.emplace_back(work);
-  work();
+  {
+    std::vector<std::jthread> helpers;
+    for (int k = 1; k < std::min(n, hardware_threads()); ++k) helpers.emplace_back(work);
+    work();
+  }
+  return seconds;
+}
+
+double thread_cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace brume

@@ -145,6 +145,7 @@ void Engine::take_up_wishes(std::vector<Progress>& jobs) {
   for (Progress& job : jobs) {
     if (job.integrator) continue;
     job.integrator = make_integrator(*job.job.scene);
+    job.statistics.cpu_seconds = job.integrator->preparation_seconds();
     // Films are kept: fresh memory of this size costs more time than a first look may take.
     if (old.empty()) continue;
     job.film = std::move(old.back().film);
@@ -244,14 +245,15 @@ void Engine::publish(Progress& job, FilmView view, int divisor) {
 }
 
 RenderStatistics render_batch(const Scene& scene, int samples, Film& film, WorkerPool& pool,
-                              const std::function<bool(const BatchProgress&)>& after_pass) {
+                              const std::function<bool(const BatchProgress&)>& after_pass, std::uint32_t first_sample) {
   const auto start = Clock::now();
   const auto integrator = make_integrator(scene);
   RenderStatistics statistics;
   statistics.threads = pool.threads();
+  statistics.cpu_seconds = integrator->preparation_seconds();
   static_cast<void>(pool.take_totals());
   for (int sample = 0; sample < samples; ++sample) {
-    render_pass(scene, *integrator, static_cast<std::uint32_t>(sample), film, pool, {});
+    render_pass(scene, *integrator, first_sample + static_cast<std::uint32_t>(sample), film, pool, {});
     add(statistics, pool.take_totals());
     statistics.samples_per_pixel = sample + 1;
     statistics.wall_seconds = seconds_since(start);

@@ -111,11 +111,13 @@ class Engine {
 /// The same passes, one after the other, on the caller's thread and the pool's: the batch renderer, and what tests
 /// compare the engine with. Same scene, size and samples give the same bits as the engine.
 /// @param after_pass  called after every pass with what there is; false ends the rendering
+/// @param first_sample  number of the first pass, for a picture that goes on where another one ended
 struct BatchProgress {
   const Film& film;
   const RenderStatistics& statistics;
 };
 RenderStatistics render_batch(const Scene& scene, int samples, Film& film, WorkerPool& pool,
-                              const std::function<bool(const BatchProgress&)>& after_pass = {});
+                              const std::function<bool(const BatchProgress&)>& after_pass = {},
+                              std::uint32_t first_sample = 0);
 
 }  // namespace brume

@@ -1,7 +1,5 @@
 #include "renderer/engine/worker_pool.h"
 
-#include <ctime>
-
 #include "renderer/core/parallel.h"
 
 #if defined(__SSE__)
@@ -10,12 +8,6 @@
 
 namespace brume {
 namespace {
-
-double thread_cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// Denormals, the tails of exp, are taken as 0: they would make a core many times slower.
 void flush_denormals() {

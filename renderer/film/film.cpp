@@ -111,6 +111,12 @@ Image Film::variance_image() const {
   return image;
 }
 
+double Film::mean_variance() const {
+  double sum = 0;
+  for (const Pixel& p : pixels_) sum += (p.m2[0] + p.m2[1] + p.m2[2]) * variance_factor(p.count);
+  return pixels_.empty() ? 0 : sum / (3 * static_cast<double>(pixels_.size()));
+}
+
 Film::NoiseSums Film::noise_of_row(int y) const {
   NoiseSums sums;
   for (int x = 0; x < width_; ++x) {

@@ -47,6 +47,10 @@ class Film {
   /// Unbiased estimate of the variance of the mean, M2 / (n (n - 1)), per channel; 0 for fewer than two samples.
   Color variance(int x, int y) const;
 
+  /// Mean of variance() over pixels and channels: the squared error that is to be expected of the picture, where its
+  /// samples are independent.
+  double mean_variance() const;
+
   Image mean_image() const;
   /// Variance of the mean, see variance().
   Image variance_image() const;

@@ -29,7 +29,7 @@ DeepShadowMap::DeepShadowMap(const Scene& scene, const LightPoint& point, int re
   tau_.resize(static_cast<std::size_t>(resolution) * static_cast<std::size_t>(resolution) *
               static_cast<std::size_t>(knots));
   const float piece = (far_ - near_) / static_cast<float>(knots - 1);
-  parallel_for(resolution, [&](int row) {
+  cpu_seconds_ = parallel_for(resolution, [&](int row) {
     Arena arena;
     MarchCounts counts;
     for (int column = 0; column < resolution; ++column) {

@@ -19,6 +19,9 @@ class DeepShadowMap {
   /// From the light to x, per channel.
   Color transmittance(Vec3 x) const;
 
+  /// Processor time that making it took.
+  double cpu_seconds() const { return cpu_seconds_; }
+
  private:
   DeepShadowMap(const Scene& scene, const LightPoint& point, int resolution);
 
@@ -36,6 +39,7 @@ class DeepShadowMap {
   int resolution_;
   float near_, far_;        // range of distances
   std::vector<Color> tau_;  // [row][column][knot]
+  double cpu_seconds_ = 0;
 };
 
 }  // namespace brume

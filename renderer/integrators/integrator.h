@@ -41,6 +41,9 @@ class Integrator {
 
   /// Radiance arriving at the ray's origin, W/(sr m^2). May be not finite: the caller drops and counts it.
   virtual Color radiance(const Ray& camera_ray, SampleContext& context) const = 0;
+
+  /// Processor time of all threads that it took to prepare it for its scene, seconds; part of what a picture costs.
+  virtual double preparation_seconds() const { return 0; }
 };
 
 }  // namespace brume

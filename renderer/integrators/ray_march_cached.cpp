@@ -8,6 +8,12 @@ RayMarchCachedIntegrator::RayMarchCachedIntegrator(const Scene& scene) {
   for (const auto& light : scene.lights) maps_.push_back(DeepShadowMap::make(scene, *light));
 }
 
+double RayMarchCachedIntegrator::preparation_seconds() const {
+  double seconds = 0;
+  for (const auto& map : maps_) seconds += map ? map->cpu_seconds() : 0;
+  return seconds;
+}
+
 const DeepShadowMap* RayMarchCachedIntegrator::shadow_map(const Scene& scene, const Light& light) const {
   for (std::size_t l = 0; l < maps_.size(); ++l)
     if (scene.lights[l].get() == &light) return maps_[l].get();

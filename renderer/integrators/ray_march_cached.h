@@ -10,6 +10,7 @@ namespace brume {
 class RayMarchCachedIntegrator final : public RayMarchIntegrator {
  public:
   explicit RayMarchCachedIntegrator(const Scene& scene);
+  double preparation_seconds() const override;
 
  protected:
   const DeepShadowMap* shadow_map(const Scene& scene, const Light& light) const override;

@@ -58,12 +58,15 @@ Result<void> apply(const Setting& setting, Node& scene) {
 
 }  // namespace
 
+Node without_variants(Node description) {
+  description.child("compare") = Node(*compare_family().tables.front());
+  return description;
+}
+
 Result<Variant> variant_of(const Node& description, std::size_t variant) {
-  const Node& compare = description.child("compare");
-  const Node& node = compare.list("variants")[variant];
+  const Node& node = description.child("compare").list("variants")[variant];
   const std::string& name = node.text("name");
-  Variant made{name.empty() ? variant_letter(variant) : name, description};
-  made.description.child("compare") = Node(compare.table());
+  Variant made{name.empty() ? variant_letter(variant) : name, without_variants(description)};
   for (const Setting& setting : node.settings("set"))
     if (const auto done = apply(setting, made.description); !done)
       return under("compare.variants." + (name.empty() ? std::to_string(variant) : name) + ".set", done.error());
@@ -83,9 +86,7 @@ Result<std::vector<Variant>> variants_of(const Node& description) {
     if (nodes[i].flag("enabled")) variants.push_back(std::move(*variant));
   }
   if (!variants.empty()) return variants;
-  Node scene = description;
-  scene.child("compare") = Node(description.child("compare").table());
-  return std::vector<Variant>{{"scene", std::move(scene)}};
+  return std::vector<Variant>{{"scene", without_variants(description)}};
 }
 
 namespace {

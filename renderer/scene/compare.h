@@ -29,6 +29,9 @@ Result<std::vector<Variant>> variants_of(const Node& description);
 /// The scene with the settings of one variant of it, enabled or not.  @param variant  of its "compare.variants"
 Result<Variant> variant_of(const Node& description, std::size_t variant);
 
+/// The scene itself, with nothing to compare.
+Node without_variants(Node description);
+
 /// Whether a parameter is one that variants have in common.
 bool is_common(const std::string& path);
 

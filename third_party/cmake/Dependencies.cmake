@@ -110,6 +110,7 @@ if(TARGET embree)
 endif()
 
 brume_find_config(tinyobjloader::tinyobjloader "tinyobjloader" libtinyobjloader-dev tinyobjloader)
+brume_find_pkg_config(xxhash libxxhash "xxHash" libxxhash-dev)
 
 # ---- Program --------------------------------------------------------------------------------------------------------
 

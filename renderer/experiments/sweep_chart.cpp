@@ -1,0 +1,210 @@
+#include "renderer/experiments/sweep_chart.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace brume {
+namespace {
+
+const Scene& scene_of(const Sweep& s, const SweepRow& r) { return *s.scenes[r.variant]; }
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+const std::vector<SweepAxis>& sweep_axes() {
+  static const std::vector<SweepAxis> axes{
+      {"cpu_seconds", "CPU time (s)", [](const Sweep&, const SweepRow& r) { return r.cpu_seconds; }, false},
+      {"step_size", "step size (world units)",
+       [](const Sweep& s, const SweepRow& r) { return static_cast<double>(scene_of(s, r).step_size); }, true},
+      {"steps", "steps across the scene",
+       [](const Sweep& s, const SweepRow& r) {
+         return scene_of(s, r).bounds.empty()
+                    ? kNone
+                    : scene_of(s, r).bounds.diagonal() / static_cast<double>(scene_of(s, r).step_size);
+       },
+       true},
+      {"bounces", "bounces",
+       [](const Sweep& s, const SweepRow& r) { return static_cast<double>(scene_of(s, r).render.bounces); }, true},
+      {"light_samples", "light samples",
+       [](const Sweep& s, const SweepRow& r) { return static_cast<double>(scene_of(s, r).light_samples); }, true},
+      {"rmse", "RMSE (radiance)", [](const Sweep&, const SweepRow& r) { return r.errors.rmse; }, false},
+      {"rmse_net", "RMSE without the reference's noise (radiance)",
+       [](const Sweep& s, const SweepRow& r) {
+         return std::sqrt(std::max(r.errors.rmse * r.errors.rmse - s.truth_of(r).variance, 0.0));
+       },
+       false},
+      {"relative_mse", "relative MSE", [](const Sweep&, const SweepRow& r) { return r.errors.relative_mse; }, false},
+      {"mean_bias", "|mean bias| (radiance)",
+       [](const Sweep&, const SweepRow& r) { return std::abs(r.errors.mean_bias); }, false},
+      {"relative_mean_bias", "|mean bias| / mean",
+       [](const Sweep&, const SweepRow& r) { return std::abs(r.errors.relative_mean_bias); }, false},
+      {"median_of_tiles", "median of tiles (radiance)",
+       [](const Sweep&, const SweepRow& r) { return r.errors.median_of_tiles; }, false},
+      {"seconds_per_sample", "CPU time of a pass (s)",
+       [](const Sweep&, const SweepRow& r) { return r.cpu_seconds / r.samples_per_pixel; }, false}};
+  return axes;
+}
+
+const SweepAxis* find_sweep_axis(const std::string& key) {
+  const auto& axes = sweep_axes();
+  const auto found = std::find_if(axes.begin(), axes.end(), [&](const SweepAxis& a) { return a.key == key; });
+  return found == axes.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> sweep_axis_keys() {
+  std::vector<std::string> keys;
+  for (const SweepAxis& a : sweep_axes()) keys.push_back(a.key);
+  return keys;
+}
+
+std::optional<double> fitted_exponent(const std::vector<std::array<double, 2>>& points) {
+  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (const auto& [x, y] : points) {
+    if (!(x > 0) || !(y > 0)) continue;
+    const double lx = std::log(x), ly = std::log(y);
+    n += 1, sx += lx, sy += ly, sxx += lx * lx, sxy += lx * ly;
+  }
+  const double spread = n * sxx - sx * sx;
+  if (n < 2 || !(spread > 1e-12 * n * sxx)) return std::nullopt;
+  return (n * sxy - sx * sy) / spread;
+}
+
+namespace {
+
+bool is_error(const SweepAxis& axis) {
+  return axis.key != "seconds_per_sample" && axis.key != "cpu_seconds" && !axis.settled;
+}
+
+/// "ray_march: n^1.98"
+void name_exponent(Series& series) {
+  const auto exponent = fitted_exponent(series.points);
+  if (!exponent) return;
+  char text[32];
+  std::snprintf(text, sizeof text, ": n^%.2f", *exponent);
+  series.name += text;
+}
+
+/// The point from which a guide is drawn: where the first line begins.
+std::optional<std::array<double, 2>> first_point(const Chart& chart) {
+  for (const Series& s : chart.series)
+    for (const auto& p : s.points)
+      if (p[0] > 0 && p[1] > 0) return p;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Chart chart_of(const Sweep& sweep, const SweepAxis& x, const SweepAxis& y, const std::string& title) {
+  Chart chart;
+  chart.title = title;
+  chart.x.label = x.label, chart.y.label = y.label;
+  const bool relative = y.key == "relative_mean_bias";
+  chart.y.percent = relative;
+  std::vector<std::string> names;
+  bool positive_x = true, positive_y = true;
+  for (const SweepRow& row : sweep.rows) {
+    if (x.settled && !row.last) continue;
+    const SweepVariant& variant = sweep.variants[row.variant];
+    const std::string& name = x.settled ? variant.series : variant.name;
+    auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      names.push_back(name);
+      found = names.end() - 1;
+      // Colours come again after eight: then in dashes.
+      const LineStyle line = names.size() > 8 ? LineStyle::Dashed : LineStyle::Solid;
+      chart.series.push_back({.name = name, .color = series_color(names.size() - 1), .line = line});
+    }
+    const std::array<double, 2> point{x.value(sweep, row), y.value(sweep, row)};
+    positive_x &= point[0] > 0, positive_y &= point[1] > 0;
+    chart.series[static_cast<std::size_t>(found - names.begin())].points.push_back(point);
+  }
+  chart.x.logarithmic = positive_x && x.key != "bounces";
+  chart.y.logarithmic = positive_y || is_error(y);  // an error of exactly 0 has no place
+  if (x.settled)
+    for (Series& s : chart.series) std::sort(s.points.begin(), s.points.end());
+  if (x.key == "steps" && y.key == "seconds_per_sample")
+    for (Series& s : chart.series) name_exponent(s);
+  if (x.key == "cpu_seconds" && is_error(y))
+    if (const auto from = first_point(chart)) {
+      const bool squared = y.key == "relative_mse";
+      chart.guides.push_back({squared ? "t^-1" : "t^-1/2", squared ? -1.0 : -0.5, *from});
+    }
+  if (y.key == "rmse" && sweep.references.size() == 1 && sweep.references[0].variance > 0)
+    chart.levels.push_back({"error of the reference itself", std::sqrt(sweep.references[0].variance), {140, 140, 140}});
+  return chart;
+}
+
+std::vector<std::size_t> pareto_front(const Sweep& sweep, const SweepAxis& error) {
+  std::vector<std::size_t> order(sweep.rows.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return sweep.rows[a].cpu_seconds < sweep.rows[b].cpu_seconds; });
+  std::vector<std::size_t> front;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : order) {
+    const double e = error.value(sweep, sweep.rows[i]);
+    if (!(e < least)) continue;
+    least = e;
+    front.push_back(i);
+  }
+  return front;
+}
+
+std::optional<std::size_t> best_row(const Sweep& sweep, const SweepAxis& error, std::optional<double> target) {
+  const std::vector<std::size_t> front = pareto_front(sweep, error);
+  if (front.empty()) return std::nullopt;
+  constexpr double kNearlyLeast = 1.1;
+  const double enough = target.value_or(kNearlyLeast * error.value(sweep, sweep.rows[front.back()]));
+  for (const std::size_t i : front)
+    if (error.value(sweep, sweep.rows[i]) <= enough) return i;
+  return std::nullopt;
+}
+
+void add_front(const Sweep& sweep, const SweepAxis& error, std::optional<double> target, Chart& chart) {
+  constexpr Rgb kFront{200, 60, 60};
+  Series front{.name = "cheapest for its error", .color = kFront, .line = LineStyle::Dashed, .markers = false};
+  const auto point = [&](std::size_t i) {
+    return std::array<double, 2>{sweep.rows[i].cpu_seconds, error.value(sweep, sweep.rows[i])};
+  };
+  for (const std::size_t i : pareto_front(sweep, error)) front.points.push_back(point(i));
+  chart.series.push_back(std::move(front));
+  if (target) chart.levels.push_back({"target", *target, kFront});
+  if (const auto best = best_row(sweep, error, target))
+    chart.marks.push_back({sweep.variants[sweep.rows[*best].variant].name, point(*best), kFront});
+}
+
+std::string csv_of(const Sweep& sweep) {
+  std::string csv =
+      "variant,integrator,distance_sampling,step_size,bounces,light_samples,samples_per_pixel,cpu_seconds,rmse,"
+      "relative_mse,mean_bias,relative_mean_bias,median_of_tiles,reference_rmse\n";
+  // Quoted as RFC 4180 says, because names may hold commas.
+  const auto quoted = [](const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + "\"";
+  };
+  for (const SweepRow& row : sweep.rows) {
+    const SweepVariant& variant = sweep.variants[row.variant];
+    const Scene& scene = scene_of(sweep, row);
+    const Node& render = variant.description.child("render");
+    const bool distances = render.table().find("distance_sampling");
+    const bool marches = render.table().find("step_size");
+    std::vector<std::string> cells{quoted(variant.name),
+                                   render.kind(),
+                                   distances ? render.text("distance_sampling") : "",
+                                   marches ? format_value(static_cast<double>(scene.step_size)) : "",
+                                   std::to_string(scene.render.bounces),
+                                   std::to_string(scene.light_samples),
+                                   std::to_string(row.samples_per_pixel)};
+    for (const double v :
+         {row.cpu_seconds, row.errors.rmse, row.errors.relative_mse, row.errors.mean_bias,
+          row.errors.relative_mean_bias, row.errors.median_of_tiles, std::sqrt(sweep.truth_of(row).variance)})
+      cells.push_back(format_value(v));
+    csv += join(cells, ",") + "\n";
+  }
+  return csv;
+}
+
+}  // namespace brume
