@@ -30,6 +30,7 @@ constexpr Shortcut kHelp[] = {{"Left drag", "orbit"},
                               {"1-4", "show a variant; hold to flip"},
                               {"S, W, D", "variants side by side, wipe, difference"},
                               {"V", "duplicate as variant"},
+                              {"C", "chart of error against time"},
                               {"E, Shift+E", "exposure up, down"},
                               {"Space", "pause, go on"},
                               {"R", "restart the picture"},
@@ -103,6 +104,15 @@ void MainWindow::ask_export() {
                 }});
 }
 
+void MainWindow::ask_export_chart() {
+  const std::string name = std::filesystem::path(session_.title()).stem().string() + "_chart.svg";
+  dialog_.open({"Export chart", {".svg", ".png", ".csv"}, true, name, [this](const std::string& path) {
+                  const auto done = chart_.write(session_, path);
+                  report(done);
+                  if (done) session_.say(LogLevel::Info, "Exported " + path + ".");
+                }});
+}
+
 void MainWindow::ask_file_of(const NodePath& volume) {
   const Node* node = volume.find(session_.description());
   dialog_.open({"Choose grid file",
@@ -146,6 +156,7 @@ void MainWindow::handle_keys() {
   if (ui::shortcut(Key::Q, {.ctrl = true})) request_quit();
   if (ui::shortcut(Key::F)) session_.frame_all();
   if (ui::shortcut(Key::R)) session_.restart();
+  if (ui::shortcut(Key::C)) show_chart_ = !show_chart_;
   if (ui::shortcut(Key::L)) show_log_ = !show_log_;
   if (ui::shortcut(Key::Tab)) show_panels_ = !show_panels_;
   if (ui::shortcut(Key::Space)) session_.set_paused(!session_.paused());
@@ -228,6 +239,8 @@ void MainWindow::draw_menu() {
     mode("Wipe", "W", ViewMode::Wipe);
     mode("Difference", "D", ViewMode::Difference);
     ImGui::Separator();
+    if (ui::menu_item("Chart", "C", show_chart_)) show_chart_ = !show_chart_;
+    ImGui::Separator();
     const auto difference = [&](const char* label, DifferenceKind kind) {
       if (ui::menu_item(label, "", view_.difference == kind)) view_.difference = kind;
     };
@@ -261,6 +274,8 @@ void MainWindow::draw_panels() {
   const float em = ImGui::GetFontSize(), top = ImGui::GetFrameHeight();
   const float left = show_panels_ ? std::floor(15 * em) : 0, right = show_panels_ ? std::floor(24 * em) : 0;
   const float status = show_panels_ ? std::floor(2 * em) : 0, log = show_log_ && show_panels_ ? std::floor(9 * em) : 0;
+  const float chart = show_chart_ && show_panels_ ? std::floor(21 * em) : 0;
+  session_.want_truth(chart > 0);
   const float height = io.DisplaySize.y - top - status;
   const auto panel = [&](const char* name, float x, float y, float w, float h, ImGuiWindowFlags flags = 0) {
     ImGui::SetNextWindowPos({x, y});
@@ -282,12 +297,17 @@ void MainWindow::draw_panels() {
     ui::end_window();
     ImGui::PopStyleVar();
   }
+  if (chart > 0) {
+    if (panel("Chart", left, top + height - log - chart, io.DisplaySize.x - left - right, chart))
+      if (chart_.draw(session_, options_.measured)) ask_export_chart();
+    ui::end_window();
+  }
   if (log > 0) {
     if (panel("Log", left, top + height - log, io.DisplaySize.x - left - right, log)) draw_log();
     ui::end_window();
   }
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-  if (panel("View", left, top, io.DisplaySize.x - left - right, height - log,
+  if (panel("View", left, top, io.DisplaySize.x - left - right, height - log - chart,
             ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
     viewport_.draw(session_, view_, options_.measured);
   ui::end_window();

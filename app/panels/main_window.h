@@ -1,6 +1,7 @@
 // The whole user interface, drawn the same in a window and headless.
 #pragma once
 
+#include "app/panels/chart_panel.h"
 #include "app/panels/file_dialog.h"
 #include "app/panels/node_path.h"
 #include "app/panels/view_state.h"
@@ -43,6 +44,7 @@ class MainWindow {
   void ask_open();
   void ask_save_as();
   void ask_export();
+  void ask_export_chart();
   void ask_file_of(const NodePath& volume);
   void save();
   void report(const Result<void>& done);
@@ -54,6 +56,7 @@ class MainWindow {
   Session& session_;
   MainWindowOptions options_;
   Viewport viewport_;
+  ChartPanel chart_;
   FileDialog dialog_;
   NodePath selected_;
   std::optional<std::size_t> edited_variant_;  // of the description's; none: the scene itself
@@ -63,7 +66,7 @@ class MainWindow {
     ViewState before;
     double since;
   } flipped_ = {};  // while a number key is held
-  bool show_panels_ = true, show_log_ = false, show_help_ = false;
+  bool show_panels_ = true, show_chart_ = false, show_log_ = false, show_help_ = false;
   bool may_quit_ = false;
   std::function<void()> after_question_;
   bool opening_question_ = false;

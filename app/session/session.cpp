@@ -29,15 +29,18 @@ Node empty_scene() { return Node(*scene_family().tables.front()); }
 
 /// What the worker is asked for: to open a file, or to commit a description.
 struct Session::Wish {
-  std::string open;  // path; empty: commit `description`
-  std::optional<Node> description;
+  std::string open = {};  // path; empty: commit `description`
+  std::optional<Node> description = {};
   std::uint64_t generation = 0;
+  bool truth = false;         // a reference is wanted,
+  int width = 0, height = 0;  // of this size
 };
 
 struct Session::Outcome {
   Wish wish;
   std::optional<LoadedScene> loaded;  // of a wish to open
   std::vector<Shown> shown;           // empty: see error
+  std::optional<FoundTruth> truth;
   std::optional<Error> error;
   std::map<std::string, std::vector<GridInfo>> grid_infos;
 };
@@ -46,6 +49,7 @@ Session::Session(const SessionOptions& options)
     : options_(options),
       description_(empty_scene()),
       saved_(description_),
+      live_(options.on_news),
       engine_({.threads = options.threads, .on_picture = options.on_news}) {
   worker_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
 }
@@ -95,10 +99,10 @@ void Session::redo() {
 
 void Session::description_changed(std::optional<Affects> dearest) {
   if (!dearest || *dearest == Affects::Display) return;
-  request({{}, description_, ++generation_});
+  request({.description = description_, .generation = ++generation_});
 }
 
-void Session::open(const std::string& path) { request({path, {}, ++generation_}); }
+void Session::open(const std::string& path) { request({.open = path, .generation = ++generation_}); }
 
 void Session::start(Node description, const std::string& path) {
   description_ = std::move(description);
@@ -107,7 +111,7 @@ void Session::start(Node description, const std::string& path) {
   undo_.clear();
   redo_.clear();
   step_open_ = false;
-  request({{}, description_, ++generation_});
+  request({.description = description_, .generation = ++generation_});
 }
 
 Result<void> Session::save() { return save_as(path_); }
@@ -140,14 +144,56 @@ void Session::frame_all() {
 void Session::set_picture_size(int width, int height) {
   if (width == width_ && height == height_) return;
   width_ = width, height_ = height;
+  live_.follow({}, {});  // errors at another size are others
+  find_truth_again();
   submit();
 }
 
 void Session::submit(bool restart) {
   if (shown_.empty() || width_ <= 0 || height_ <= 0) return;
   std::vector<Job> jobs;
-  for (const Shown& s : shown_) jobs.push_back({s.scene, width_, height_, options_.max_samples});
+  std::vector<SweepVariant> variants;
+  std::vector<std::shared_ptr<const Scene>> scenes;
+  for (const Shown& s : shown_) {
+    jobs.push_back({s.scene, width_, height_, options_.max_samples});
+    variants.push_back({s.variant.name, s.variant.name, s.variant.description});
+    scenes.push_back(s.scene);
+  }
+  if (const auto job = truth_.job()) jobs.push_back(*job);
   engine_.submit(std::move(jobs), restart);
+  live_.follow(std::move(variants), std::move(scenes));
+}
+
+// --- Against the truth
+
+void Session::want_truth(bool wanted) {
+  if (wanted == truth_.wanted()) return;
+  truth_.want(wanted);
+  live_.set_reference(nullptr);
+  find_truth_again();
+  submit();
+}
+
+/// By the worker, unless it is busy: then what comes of that is followed by another look.
+void Session::find_truth_again() {
+  if (truth_.wanted() && idle() && !shown_.empty()) request({.description = description_, .generation = ++generation_});
+}
+
+void Session::follow_errors() {
+  if (!truth_.wanted()) return;
+  const std::string& given = description_.child("compare").text("reference");
+  if (given != asked_reference_) {
+    asked_reference_ = given;
+    truth_.want(true);
+    live_.set_reference(nullptr);
+  }
+  const bool fits = truth_.width() == width_ && truth_.height() == height_;
+  if (!fits && width_ > 0) find_truth_again();
+  if (truth_.see(picture(shown_.size()), description_.child("compare").number("reference_time"))) {
+    live_.set_reference(truth_.reference());
+    if (!truth_.job()) submit();  // it is done: the others have the threads
+  }
+  for (std::size_t i = 0; i < shown_.size(); ++i) live_.see(i, picture(i));
 }
 
 const std::string& Session::black_picture(std::size_t i) const { return examined_[i].black; }
@@ -198,6 +244,8 @@ bool Session::finished() const {
 }
 
 void Session::request(Wish wish) {
+  wish.truth = truth_.wanted();
+  wish.width = width_, wish.height = height_;
   const std::lock_guard lock(mutex_);
   // A newer edit supersedes a commit under way, but an edit made while a file is being opened waits for nothing: the
   // file will replace the document.
@@ -251,10 +299,14 @@ Session::Outcome Session::fulfil(const Wish& wish, const std::stop_token& cancel
   }
   auto committed =
       commit_variants(description, {.generation = wish.generation, .progress = progress, .cancel = cancel});
-  if (committed)
-    out.shown = last_committed_ = std::move(*committed);
-  else
+  if (!committed) {
     out.error = committed.error();
+    return out;
+  }
+  out.shown = last_committed_ = std::move(*committed);
+  if (wish.truth && wish.width > 0)
+    out.truth =
+        truth_finder_.find(description, cache_, options_.reference_folder, wish.width, wish.height, wish.generation);
   return out;
 }
 
@@ -305,6 +357,10 @@ void Session::take(Outcome outcome) {
     for (const std::string& warning : s.scene->warnings)
       if (known.insert(warning).second) say(LogLevel::Warning, warning);
   shown_ = std::move(outcome.shown);
+  if (outcome.truth && truth_.take(std::move(*outcome.truth))) {
+    live_.set_reference(truth_.reference());
+    if (!truth_.problem().empty()) say(LogLevel::Error, truth_.problem());
+  }
   cache_.drop_unused();
   submit();
 }
@@ -319,6 +375,7 @@ void Session::update() {
   if (outcome) take(std::move(*outcome));
   engine_.set_share(description_.child("compare").text("share") == "equal_time" ? Share::EqualTime
                                                                                 : Share::EqualSamples);
+  follow_errors();
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     const auto p = picture(i);
     if (!p || p == examined_[i].picture || p->generation != shown_[i].scene->generation) continue;

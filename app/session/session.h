@@ -7,7 +7,9 @@
 #include <optional>
 #include <string>
 
+#include "app/session/truth.h"
 #include "renderer/engine/engine.h"
+#include "renderer/experiments/live_sweep.h"
 #include "renderer/media/vdb_file.h"
 #include "renderer/params/node.h"
 #include "renderer/scene/compare.h"
@@ -18,6 +20,7 @@ struct SessionOptions {
   int threads = 0;                     ///< 0: as many as the machine has
   int max_samples = 1 << 24;           ///< per pixel; the picture is finished then
   std::function<void()> on_news = {};  ///< called from other threads when update() would bring something new
+  std::string reference_folder = {};   ///< where references are kept between sessions; empty: nowhere
 };
 
 /// Belongs to the UI thread, which it never keeps waiting: files are read and scenes committed on a thread of its own,
@@ -89,6 +92,15 @@ class Session {
   /// Why there is nothing to see in a picture, in one sentence; empty when there is.
   const std::string& black_picture(std::size_t i = 0) const;
 
+  // --- Against the truth
+
+  /// Whether errors are measured. The reference is the picture that the description names, or it is rendered, as one
+  /// more picture that has its share of the threads, until it has had its time; a kept one is gone on with.
+  void want_truth(bool wanted);
+  const Truth& truth() const { return truth_; }
+  /// Errors of what is rendered, so far.
+  std::shared_ptr<const Sweep> errors() const { return live_.sweep(); }
+
   // --- What goes on
 
   struct Activity {
@@ -125,6 +137,8 @@ class Session {
   Result<std::vector<Shown>> commit_variants(const Node& description, const CommitOptions& options);
   void take(Outcome outcome);
   void submit(bool restart = false);
+  void find_truth_again();
+  void follow_errors();
 
   SessionOptions options_;
   Node description_;
@@ -144,7 +158,11 @@ class Session {
   std::deque<Message> messages_;
   std::map<std::string, std::vector<GridInfo>> grid_infos_;
 
+  Truth truth_;
+  std::string asked_reference_;  // the picture that the description named when truth_ was asked for
+
   SceneCache cache_;
+  LiveSweep live_;
   Engine engine_;
 
   mutable std::mutex mutex_;  // guards what follows
@@ -155,8 +173,9 @@ class Session {
   std::chrono::steady_clock::time_point work_began_;
   std::stop_source cancel_work_;
   std::atomic<float> progress_ = 0;
-  std::vector<Shown> last_committed_;  // the worker's own
-  std::jthread worker_;                // last: it ends before what it uses
+  std::vector<Shown> last_committed_;  // this and the next are the worker's own
+  TruthFinder truth_finder_;
+  std::jthread worker_;  // last: it ends before what it uses
 };
 
 }  // namespace brume

@@ -204,15 +204,17 @@ double Engine::render_coarsely(Progress& job, std::size_t jobs) {
 double Engine::render_slice(Progress& job, std::size_t jobs) {
   const auto start = Clock::now();
   const int width = job.job.width, height = job.job.height, tiles = tile_count(width, height);
-  const auto sample = static_cast<std::uint32_t>(job.statistics.samples_per_pixel);
-  if (sample == 0 && job.next_tile == 0) start_film(job);
+  const int samples = job.statistics.samples_per_pixel;
+  if (samples == 0 && job.next_tile == 0) start_film(job);
   TileRange turn{job.next_tile, tiles};
   if (jobs > 1) {
     const double seconds_per_tile = kTileSize * kTileSize * seconds_per_ray_[job.index];
     const double affordable = kTurnSeconds * pool_.threads() / seconds_per_tile;
     if (affordable < tiles) turn.end = std::min(tiles, turn.first + std::max(pool_.threads(), int(affordable)));
   }
-  const bool complete = render_pass(*job.job.scene, *job.integrator, sample, job.film, pool_, cancelled(), turn);
+  const bool complete =
+      render_pass(*job.job.scene, *job.integrator, job.job.first_sample + static_cast<std::uint32_t>(samples), job.film,
+                  pool_, cancelled(), turn);
   account(job, start);
   job.spoiled |= !complete;
   if (!complete) return 0;
@@ -234,6 +236,7 @@ void Engine::publish(Progress& job, FilmView view, int divisor) {
   picture->divisor = divisor;
   picture->generation = job.job.scene->generation;
   picture->noise = view.noise;
+  picture->variance = view.variance;
   picture->finished = job.finished();
   picture->statistics = job.statistics;
   job.published = Clock::now();

@@ -27,6 +27,7 @@ struct Picture {
   int divisor = 1;  ///< 1: full resolution
   std::uint64_t generation = 0;
   double noise = 0;       ///< relative, as Film::noise_estimate; 0 while coarse
+  double variance = 0;    ///< as Film::mean_variance; 0 while coarse
   bool finished = false;  ///< the budget is used up
   RenderStatistics statistics;
 };
@@ -35,7 +36,8 @@ struct Picture {
 struct Job {
   std::shared_ptr<const Scene> scene;
   int width = 0, height = 0;
-  int max_samples = 1 << 24;  ///< per pixel
+  int max_samples = 1 << 24;       ///< per pixel
+  std::uint32_t first_sample = 0;  ///< number of the first pass, for a picture that goes on where another one ended
 
   bool operator==(const Job&) const = default;  ///< the very same scene
 };

@@ -89,6 +89,7 @@ FilmView view_of(const Film& film, WorkerPool& pool) {
   Film::NoiseSums sums;
   for (const Film::NoiseSums& row : rows) sums.add(row);
   view.noise = sums.estimate();
+  view.variance = sums.mean_variance();
   return view;
 }
 

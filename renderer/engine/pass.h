@@ -37,7 +37,8 @@ bool render_coarse(const Scene& scene, const Integrator& integrator, int width, 
 /// What there is to show of a film.
 struct FilmView {
   Image mean;
-  double noise = 0;  ///< as Film::noise_estimate()
+  double noise = 0;     ///< as Film::noise_estimate()
+  double variance = 0;  ///< as Film::mean_variance()
 };
 FilmView view_of(const Film& film, WorkerPool& pool);
 

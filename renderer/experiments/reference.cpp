@@ -45,8 +45,9 @@ double number_in(const ImageMetadata& metadata, const std::string& key) {
   return value;
 }
 
-/// What was kept, or nothing to begin with.
-Reference read_kept(const std::string& path, int width, int height) {
+}  // namespace
+
+Reference read_reference(const std::string& path, int width, int height) {
   const auto file = read_exr(path);
   if (!file || file->image.width != width || file->image.height != height) return {};
   Reference kept{file->image, number_in(file->metadata, "variance"),
@@ -56,7 +57,7 @@ Reference read_kept(const std::string& path, int width, int height) {
   return whole ? kept : Reference{};
 }
 
-void keep(const std::string& path, const Reference& reference) {
+void keep_reference(const std::string& path, const Reference& reference) {
   ImageMetadata metadata;
   metadata.extra["variance"] = format_value(reference.variance);
   metadata.extra["samples_per_pixel"] = std::to_string(reference.samples_per_pixel);
@@ -67,7 +68,6 @@ void keep(const std::string& path, const Reference& reference) {
   static_cast<void>(write_exr(path, reference.image, metadata).ok());
 }
 
-/// The mean of two independent pictures, each by its samples.
 Reference merged(const Reference& a, const Reference& b) {
   if (a.samples_per_pixel == 0) return b;
   Reference sum = b;
@@ -80,8 +80,6 @@ Reference merged(const Reference& a, const Reference& b) {
         a.image.pixels[i] * static_cast<float>(share) + b.image.pixels[i] * static_cast<float>(1 - share);
   return sum;
 }
-
-}  // namespace
 
 Node reference_description(const Node& scene) {
   Node description = without_variants(scene);
@@ -105,14 +103,16 @@ std::string reference_key(const Node& description, int width, int height) {
   return digits;
 }
 
+std::string reference_path(const std::string& folder, const Node& description, int width, int height) {
+  if (folder.empty()) return "";
+  return (fs::path(folder) / (reference_key(description, width, height) + ".exr")).string();
+}
+
 Result<Reference> make_reference(const Node& scene, SceneCache& cache, WorkerPool& pool,
                                  const ReferenceOptions& options) {
   const Node description = reference_description(scene);
-  const std::string path =
-      options.folder.empty()
-          ? ""
-          : (fs::path(options.folder) / (reference_key(description, options.width, options.height) + ".exr")).string();
-  const Reference kept = path.empty() ? Reference{} : read_kept(path, options.width, options.height);
+  const std::string path = reference_path(options.folder, description, options.width, options.height);
+  const Reference kept = path.empty() ? Reference{} : read_reference(path, options.width, options.height);
   if (kept.cpu_seconds >= options.cpu_seconds) return kept;
 
   const auto committed = commit(description, cache, {.cancel = options.cancel});
@@ -133,7 +133,7 @@ Result<Reference> make_reference(const Node& scene, SceneCache& cache, WorkerPoo
                                       : Error{ErrorCode::Cancelled, "the reference was cancelled"};
   Reference reference =
       merged(kept, {film.mean_image(), film.mean_variance(), statistics.samples_per_pixel, statistics.cpu_seconds});
-  if (!path.empty()) keep(path, reference);
+  if (!path.empty()) keep_reference(path, reference);
   return reference;
 }
 

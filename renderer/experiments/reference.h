@@ -38,6 +38,16 @@ struct ReferenceOptions {
 Result<Reference> make_reference(const Node& scene, SceneCache& cache, WorkerPool& pool,
                                  const ReferenceOptions& options);
 
+/// Two independent parts of one reference, each weighted by its samples.
+Reference merged(const Reference& a, const Reference& b);
+
+/// Where a folder keeps the reference of a description of reference_description(); empty for no folder.
+std::string reference_path(const std::string& folder, const Node& description, int width, int height);
+/// What is kept there, or a reference without samples.
+Reference read_reference(const std::string& path, int width, int height);
+/// Keeps it there; where that cannot be, it is rendered anew the next time.
+void keep_reference(const std::string& path, const Reference& reference);
+
 /// The hash, 32 hexadecimal digits.  @param description  of reference_description()
 std::string reference_key(const Node& description, int width, int height);
 

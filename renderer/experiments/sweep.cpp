@@ -64,7 +64,7 @@ bool is_measured(int samples_per_pixel) {
 namespace {
 
 /// The rows of one variant.
-Result<std::vector<SweepRow>> measure(std::size_t index, const Scene& scene, const Image& truth, WorkerPool& pool,
+Result<std::vector<SweepRow>> measure(std::size_t index, const Scene& scene, const Reference& truth, WorkerPool& pool,
                                       const SweepOptions& options, const std::function<void(double)>& progress) {
   // What is touched for the first time, memory and code, costs time that is nobody's.
   Image warm;
@@ -79,9 +79,9 @@ Result<std::vector<SweepRow>> measure(std::size_t index, const Scene& scene, con
     if (options.cancel.stop_requested()) return false;
     const bool last = s.cpu_seconds >= options.cpu_seconds || s.samples_per_pixel == options.max_samples;
     if (last || is_measured(s.samples_per_pixel)) {
-      const auto errors = errors_of(p.film.mean_image(), truth);
+      const auto errors = errors_of(p.film.mean_image(), truth.image);
       if (errors)
-        rows.push_back({index, s.samples_per_pixel, s.cpu_seconds, *errors, last});
+        rows.push_back({index, s.samples_per_pixel, s.cpu_seconds, *errors, truth.variance, last});
       else
         error = errors.error();
     }
@@ -108,7 +108,7 @@ Result<Sweep> run_sweep(std::vector<SweepVariant> variants, std::vector<Referenc
       const double n = static_cast<double>(sweep.variants.size());
       options.progress((static_cast<double>(i) + std::min(done, 1.0)) / n, sweep.variants[i]);
     };
-    auto rows = measure(i, *sweep.scenes[i], sweep.references[sweep.variants[i].truth].image, pool, options, progress);
+    auto rows = measure(i, *sweep.scenes[i], sweep.references[sweep.variants[i].truth], pool, options, progress);
     if (!rows) return rows.error();
     if (options.cancel.stop_requested()) return Error{ErrorCode::Cancelled, "the sweep was cancelled"};
     sweep.rows.insert(sweep.rows.end(), rows->begin(), rows->end());

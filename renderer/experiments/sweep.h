@@ -41,7 +41,8 @@ struct SweepRow {
   int samples_per_pixel = 0;
   double cpu_seconds = 0;  ///< of its own work, preparation included
   Errors errors;
-  bool last = false;  ///< of its variant
+  double reference_variance = 0;  ///< of the reference that it was held against
+  bool last = false;              ///< of its variant
 };
 
 struct SweepOptions {
@@ -58,8 +59,6 @@ struct Sweep {
   std::vector<std::shared_ptr<const Scene>> scenes;  ///< as committed, with steps and samples resolved
   std::vector<SweepRow> rows;                        ///< variant by variant, in the order of time
   std::vector<Reference> references;
-
-  const Reference& truth_of(const SweepRow& row) const { return references[variants[row.variant].truth]; }
 };
 
 /// Renders one variant after the other and measures after 1, 2, 3, 4, 6, 8, 12, ... samples per pixel and at the end.

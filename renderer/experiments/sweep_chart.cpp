@@ -30,9 +30,9 @@ const std::vector<SweepAxis>& sweep_axes() {
       {"light_samples", "light samples",
        [](const Sweep& s, const SweepRow& r) { return static_cast<double>(scene_of(s, r).light_samples); }, true},
       {"rmse", "RMSE (radiance)", [](const Sweep&, const SweepRow& r) { return r.errors.rmse; }, false},
-      {"rmse_net", "RMSE without the reference's noise (radiance)",
-       [](const Sweep& s, const SweepRow& r) {
-         return std::sqrt(std::max(r.errors.rmse * r.errors.rmse - s.truth_of(r).variance, 0.0));
+      {"rmse_net", "net RMSE (radiance)",
+       [](const Sweep&, const SweepRow& r) {
+         return std::sqrt(std::max(r.errors.rmse * r.errors.rmse - r.reference_variance, 0.0));
        },
        false},
       {"relative_mse", "relative MSE", [](const Sweep&, const SweepRow& r) { return r.errors.relative_mse; }, false},
@@ -42,7 +42,7 @@ const std::vector<SweepAxis>& sweep_axes() {
        [](const Sweep&, const SweepRow& r) { return std::abs(r.errors.relative_mean_bias); }, false},
       {"median_of_tiles", "median of tiles (radiance)",
        [](const Sweep&, const SweepRow& r) { return r.errors.median_of_tiles; }, false},
-      {"seconds_per_sample", "CPU time of a pass (s)",
+      {"seconds_per_sample", "CPU time per sample (s)",
        [](const Sweep&, const SweepRow& r) { return r.cpu_seconds / r.samples_per_pixel; }, false}};
   return axes;
 }
@@ -131,7 +131,7 @@ Chart chart_of(const Sweep& sweep, const SweepAxis& x, const SweepAxis& y, const
       const bool squared = y.key == "relative_mse";
       chart.guides.push_back({squared ? "t^-1" : "t^-1/2", squared ? -1.0 : -0.5, *from});
     }
-  if (y.key == "rmse" && sweep.references.size() == 1 && sweep.references[0].variance > 0)
+  if (y.key.starts_with("rmse") && sweep.references.size() == 1 && sweep.references[0].variance > 0)
     chart.levels.push_back({"error of the reference itself", std::sqrt(sweep.references[0].variance), {140, 140, 140}});
   return chart;
 }
@@ -200,7 +200,7 @@ std::string csv_of(const Sweep& sweep) {
                                    std::to_string(row.samples_per_pixel)};
     for (const double v :
          {row.cpu_seconds, row.errors.rmse, row.errors.relative_mse, row.errors.mean_bias,
-          row.errors.relative_mean_bias, row.errors.median_of_tiles, std::sqrt(sweep.truth_of(row).variance)})
+          row.errors.relative_mean_bias, row.errors.median_of_tiles, std::sqrt(row.reference_variance)})
       cells.push_back(format_value(v));
     csv += join(cells, ",") + "\n";
   }

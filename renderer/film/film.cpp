@@ -111,11 +111,9 @@ Image Film::variance_image() const {
   return image;
 }
 
-double Film::mean_variance() const {
-  double sum = 0;
-  for (const Pixel& p : pixels_) sum += (p.m2[0] + p.m2[1] + p.m2[2]) * variance_factor(p.count);
-  return pixels_.empty() ? 0 : sum / (3 * static_cast<double>(pixels_.size()));
-}
+double Film::mean_variance() const { return noise_sums().mean_variance(); }
+
+double Film::NoiseSums::mean_variance() const { return pixels == 0 ? 0 : variance / (3 * static_cast<double>(pixels)); }
 
 Film::NoiseSums Film::noise_of_row(int y) const {
   NoiseSums sums;
@@ -124,6 +122,7 @@ Film::NoiseSums Film::noise_of_row(int y) const {
     if (p.count == 0) continue;
     const double own = luminance(p.mean);
     sums.luminance += own;
+    sums.variance += (p.m2[0] + p.m2[1] + p.m2[2]) * variance_factor(p.count);
     ++sums.pixels;
     if (p.twin_count == 0) continue;
     sums.difference += std::abs(own - p.twin_luminance);
@@ -133,7 +132,7 @@ Film::NoiseSums Film::noise_of_row(int y) const {
 }
 
 void Film::NoiseSums::add(const NoiseSums& other) {
-  luminance += other.luminance, difference += other.difference;
+  luminance += other.luminance, difference += other.difference, variance += other.variance;
   pixels += other.pixels, pairs += other.pairs;
 }
 
@@ -143,10 +142,12 @@ double Film::NoiseSums::estimate() const {
   return half_root_pi * difference / static_cast<double>(pairs) / (luminance / static_cast<double>(pixels));
 }
 
-double Film::noise_estimate() const {
+Film::NoiseSums Film::noise_sums() const {
   NoiseSums sums;
   for (int y = 0; y < height_; ++y) sums.add(noise_of_row(y));
-  return sums.estimate();
+  return sums;
 }
+
+double Film::noise_estimate() const { return noise_sums().estimate(); }
 
 }  // namespace brume

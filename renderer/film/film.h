@@ -75,12 +75,15 @@ class Film {
   /// Both of them row by row; different rows at the same time.
   struct NoiseSums {
     double luminance = 0, difference = 0;
+    double variance = 0;  ///< of the mean, summed over channels
     std::size_t pixels = 0, pairs = 0;
 
     void add(const NoiseSums& other);
     double estimate() const;
+    double mean_variance() const;
   };
   NoiseSums noise_of_row(int y) const;
+  NoiseSums noise_sums() const;
   /// @param image  of the film's size
   void mean_row(int y, Image& image) const;
 

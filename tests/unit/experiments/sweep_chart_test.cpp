@@ -20,7 +20,7 @@ Sweep made_up(const std::vector<double>& cost, const std::vector<std::vector<dou
     sweep.variants.push_back({"variant " + std::to_string(v), v < 2 ? "first" : "second", scene});
     sweep.scenes.push_back(committed(scene));
     for (std::size_t i = 0; i < errors[v].size(); ++i)
-      sweep.rows.push_back({v, 1 << i, cost[v] * (1 << i), {.rmse = errors[v][i]}, i + 1 == errors[v].size()});
+      sweep.rows.push_back({v, 1 << i, cost[v] * (1 << i), {.rmse = errors[v][i]}, 0, i + 1 == errors[v].size()});
   }
   return sweep;
 }
@@ -80,6 +80,7 @@ TEST(SweepChart, ExponentsAreFittedByLeastSquares) {
 TEST(SweepChart, TheReferencesNoiseIsTakenOutAndShown) {
   Sweep sweep = made_up({1}, {{0.5, 0.3}});
   sweep.references[0].variance = 0.16;
+  for (SweepRow& row : sweep.rows) row.reference_variance = 0.16;
   EXPECT_NEAR(axis("rmse_net").value(sweep, sweep.rows[0]), 0.3, 1e-12);
   EXPECT_EQ(axis("rmse_net").value(sweep, sweep.rows[1]), 0) << "less than the noise: nothing is left";
   const Chart chart = chart_of(sweep, axis("cpu_seconds"), axis("rmse"), "");
