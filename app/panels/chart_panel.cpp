@@ -39,7 +39,7 @@ std::string reference_text(const Session& session, bool measured) {
 
 Chart ChartPanel::chart(const Sweep& sweep, const Session& session, bool measured) const {
   const SweepAxis& y = *find_sweep_axis(error_);
-  Chart chart = chart_of(sweep, *find_sweep_axis("cpu_seconds"), y, y.label + " against CPU time");
+  Chart chart = chart_of(sweep, *find_sweep_axis("cpu_seconds"), y, "");
   chart.subtitle = session.title() + ". " + reference_text(session, measured);
   if (front_) add_front(sweep, y, {}, chart);
   return chart;
@@ -56,6 +56,7 @@ bool ChartPanel::draw(Session& session, bool measured) {
   }
   ImGui::SetNextItemWidth(std::min(17 * em, 0.35f * ImGui::GetContentRegionAvail().x));
   if (ui::combo("##error", index, labels)) error_ = kErrors[index];
+  ui::tooltip_on_hover("What is charted. Net RMSE is the RMSE with the noise of the reference taken out.");
   ImGui::SameLine();
   ui::checkbox("Cheapest", front_);
   ui::tooltip_on_hover("Marks what is cheapest for its error, and the best: the cheapest within a tenth of the least.");

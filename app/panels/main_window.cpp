@@ -274,7 +274,7 @@ void MainWindow::draw_panels() {
   const float em = ImGui::GetFontSize(), top = ImGui::GetFrameHeight();
   const float left = show_panels_ ? std::floor(15 * em) : 0, right = show_panels_ ? std::floor(24 * em) : 0;
   const float status = show_panels_ ? std::floor(2 * em) : 0, log = show_log_ && show_panels_ ? std::floor(9 * em) : 0;
-  const float chart = show_chart_ && show_panels_ ? std::floor(21 * em) : 0;
+  const float chart = show_chart_ && show_panels_ ? std::floor(22 * em) : 0;
   session_.want_truth(chart > 0);
   const float height = io.DisplaySize.y - top - status;
   const auto panel = [&](const char* name, float x, float y, float w, float h, ImGuiWindowFlags flags = 0) {

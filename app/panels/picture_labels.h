@@ -19,7 +19,7 @@ float draw_plate(const PictureArea& area, float below_top, const std::string& te
 /// The variant's name at the upper left of the area, or from `left` on.
 void draw_variant_label(const Session& session, std::size_t index, float left, const PictureArea& area);
 
-/// Samples, time, rays, noise of the variant along the lower edge of the area.
+/// Samples, time, rays, noise of the variant, and its error and bias where they are measured, along the lower edge.
 void draw_variant_figures(const Session& session, std::size_t index, const PictureArea& area, bool measured);
 
 /// Which pictures differ, and the colours with their values.
