@@ -31,7 +31,6 @@ Node empty_scene() { return Node(*scene_family().tables.front()); }
 struct Session::Wish {
   std::string open = {};  // path; empty: commit `description`
   std::optional<Node> description = {};
-  std::uint64_t generation = 0;
   bool truth = false;         // a reference is wanted,
   int width = 0, height = 0;  // of this size
 };
@@ -99,10 +98,10 @@ void Session::redo() {
 
 void Session::description_changed(std::optional<Affects> dearest) {
   if (!dearest || *dearest == Affects::Display) return;
-  request({.description = description_, .generation = ++generation_});
+  request({.description = description_});
 }
 
-void Session::open(const std::string& path) { request({.open = path, .generation = ++generation_}); }
+void Session::open(const std::string& path) { request({.open = path}); }
 
 void Session::start(Node description, const std::string& path) {
   description_ = std::move(description);
@@ -111,7 +110,7 @@ void Session::start(Node description, const std::string& path) {
   undo_.clear();
   redo_.clear();
   step_open_ = false;
-  request({.description = description_, .generation = ++generation_});
+  request({.description = description_});
 }
 
 Result<void> Session::save() { return save_as(path_); }
@@ -176,7 +175,7 @@ void Session::want_truth(bool wanted) {
 
 /// By the worker, unless it is busy: then what comes of that is followed by another look.
 void Session::find_truth_again() {
-  if (truth_.wanted() && idle() && !shown_.empty()) request({.description = description_, .generation = ++generation_});
+  if (truth_.wanted() && idle() && !shown_.empty()) request({.description = description_});
 }
 
 void Session::follow_errors() {
@@ -297,8 +296,7 @@ Session::Outcome Session::fulfil(const Wish& wish, const std::stop_token& cancel
     if (!volume.table().find("file") || volume.text("file").empty()) continue;
     if (auto infos = list_grids(volume.text("file"), false)) out.grid_infos[volume.text("file")] = std::move(*infos);
   }
-  auto committed =
-      commit_variants(description, {.generation = wish.generation, .progress = progress, .cancel = cancel});
+  auto committed = commit_variants(description, {.progress = progress, .cancel = cancel});
   if (!committed) {
     out.error = committed.error();
     return out;
@@ -310,7 +308,7 @@ Session::Outcome Session::fulfil(const Wish& wish, const std::stop_token& cancel
   return out;
 }
 
-Result<std::vector<Session::Shown>> Session::commit_variants(const Node& description, const CommitOptions& options) {
+Result<std::vector<Session::Shown>> Session::commit_variants(const Node& description, CommitOptions options) {
   auto variants = variants_of(description);
   if (!variants) return variants.error();
   std::vector<Shown> committed;
@@ -323,6 +321,8 @@ Result<std::vector<Session::Shown>> Session::commit_variants(const Node& descrip
       committed.push_back({std::move(v), same->scene});
       continue;
     }
+    // One of its own for each: a picture is known by it, whatever its place among the others has been.
+    options.generation = ++commits_;
     auto scene = commit(v.description, cache_, options);
     if (!scene) return variants->size() > 1 ? under("compare.variants." + v.name, scene.error()) : scene.error();
     committed.push_back({std::move(v), std::move(*scene)});

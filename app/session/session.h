@@ -134,7 +134,7 @@ class Session {
   void request(Wish wish);
   void serve(const std::stop_token& stop);
   Outcome fulfil(const Wish& wish, const std::stop_token& cancel);
-  Result<std::vector<Shown>> commit_variants(const Node& description, const CommitOptions& options);
+  Result<std::vector<Shown>> commit_variants(const Node& description, CommitOptions options);
   void take(Outcome outcome);
   void submit(bool restart = false);
   void find_truth_again();
@@ -146,7 +146,6 @@ class Session {
   std::string path_;
   std::vector<Node> undo_, redo_;
   bool step_open_ = false;
-  std::uint64_t generation_ = 0;
   int width_ = 0, height_ = 0;
   std::vector<Shown> shown_;
   std::string problem_;
@@ -173,8 +172,10 @@ class Session {
   std::chrono::steady_clock::time_point work_began_;
   std::stop_source cancel_work_;
   std::atomic<float> progress_ = 0;
-  std::vector<Shown> last_committed_;  // this and the next are the worker's own
+  // The worker's own.
+  std::vector<Shown> last_committed_;
   TruthFinder truth_finder_;
+  std::uint64_t commits_ = 0;
   std::jthread worker_;  // last: it ends before what it uses
 };
 

@@ -23,7 +23,7 @@ namespace brume {
 struct Scene {
   static constexpr int kMaxLampsInside = 8;
 
-  std::uint64_t generation = 0;  ///< of the edit that it shows; a later edit has a higher number
+  std::uint64_t generation = 0;  ///< no two scenes of a session have the same; a later one has a higher number
   PinholeCamera camera;
   FilmSettings film;
   RenderSettings render;
