@@ -30,14 +30,9 @@ void take_dragged(Session& session, std::size_t variant) {
   if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(ui::kDraggedSetting)) {
     const std::string path(static_cast<const char*>(payload->Data), static_cast<std::size_t>(payload->DataSize));
     Node scene = session.description();
-    const auto found = find_param(scene, path);
-    // The kind of an object ("render.integrator") is no parameter of it.
-    const std::string object = path.substr(0, path.rfind('.'));
-    const std::string value = found                ? format_value(found->node->value(found->param->key))
-                              : object == "render" ? scene.child("render").kind()
-                                                   : "";
-    if (!value.empty()) {
-      session.change([&](Node& d) { set_in_variant(d, variant, path, value); });
+    // What only another variant's kind of object has is nothing that the scene could give.
+    if (const auto value = text_by_path(scene, path)) {
+      session.change([&](Node& d) { set_in_variant(d, variant, path, *value); });
       session.close_step();
     }
   }
@@ -104,7 +99,7 @@ bool draw_variant(Session& session, std::size_t i, std::size_t shown_index, std:
 
 std::optional<std::size_t> duplicate_as_variant(Session& session, std::optional<std::size_t> of) {
   const std::size_t count = variants(session).size();
-  if (count >= kMaxVariants) return std::nullopt;
+  if (count >= kMaxVariants) return of;
   change_variants(session, [&](std::vector<Node>& list) {
     const Node plain(*variant_family().tables.front());
     if (list.empty()) list.push_back(plain);

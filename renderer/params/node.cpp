@@ -200,10 +200,27 @@ Result<ParamRef> find_param(Node& root, std::string_view path) {
   return unknown_word(path, place->last_word, "key", words_of(*place->node, place->family));
 }
 
+namespace {
+
+bool names_kind(const Place& place) {
+  return place.family && !place.family->type_key.empty() && place.last_word == place.family->type_key;
+}
+
+}  // namespace
+
+Result<std::string> text_by_path(Node& root, std::string_view path) {
+  const auto place = find_place(root, path);
+  if (!place) return place.error();
+  if (names_kind(*place)) return place->node->kind();
+  const auto ref = find_param(root, path);
+  if (!ref) return ref.error();
+  return format_value(ref->node->value(ref->param->key));
+}
+
 Result<void> set_by_path(Node& root, std::string_view path, std::string_view text) {
   const auto place = find_place(root, path);
   if (!place) return place.error();
-  if (place->family && !place->family->type_key.empty() && place->last_word == place->family->type_key) {
+  if (names_kind(*place)) {
     const ParamTable* kind = place->family->find(text);
     if (!kind) return unknown_word(path, text, place->family->noun, place->family->kinds());
     *place->node = place->node->converted_to(*kind);

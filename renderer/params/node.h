@@ -98,4 +98,7 @@ Result<ParamRef> find_param(Node& root, std::string_view path);
 /// ("volumes.plume.phase.type") changes the kind of that object.
 Result<void> set_by_path(Node& root, std::string_view path, std::string_view text);
 
+/// The text that set_by_path would take to leave everything as it is: a value, or a kind.
+Result<std::string> text_by_path(Node& root, std::string_view path);
+
 }  // namespace brume
