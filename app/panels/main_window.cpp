@@ -114,15 +114,18 @@ void MainWindow::ask_export_chart() {
 }
 
 void MainWindow::ask_file_of(const NodePath& volume) {
-  const Node* node = volume.find(session_.description());
+  const auto variant = edited_variant_;
+  const Node description = EditTarget(session_, variant).description();
+  const Node* node = volume.find(description);
   dialog_.open({"Choose grid file",
                 {".vdb", ".nvdb"},
                 false,
                 node ? node->text("file") : "",
-                [this, volume](const std::string& path) {
-                  session_.change([&](Node& d) {
-                    if (Node* n = volume.find(d)) static_cast<void>(n->set("file", path).ok());
-                  });
+                [this, volume, variant](const std::string& path) {
+                  const EditTarget target(session_, variant);
+                  const Node edited = target.description();
+                  const Node* n = volume.find(edited);
+                  if (const Param* p = n ? n->table().find("file") : nullptr) target.set(volume, *p, path);
                   session_.close_step();
                 }});
 }
@@ -188,13 +191,18 @@ void MainWindow::handle_view_keys() {
   for (std::size_t i = 0; i < std::min(session_.shown().size(), kMaxVariants); ++i) {
     const auto key = static_cast<Key>(static_cast<int>(Key::Num1) + static_cast<int>(i));
     if (!ui::shortcut(key)) continue;
-    flipped_ = {key, view_, ImGui::GetTime()};
+    // The second of two that are held goes back to what there was before the first.
+    flipped_ = {key, flipped_.key != Key{} ? flipped_.before : view_, ImGui::GetTime()};
     view_.mode = ViewMode::Single;
     view_.shown = i;
   }
   constexpr double kTap = 0.35;  // seconds
   if (flipped_.key != Key{} && !ui::key_held(flipped_.key)) {
-    if (ImGui::GetTime() - flipped_.since > kTap) view_ = flipped_.before;
+    if (ImGui::GetTime() - flipped_.since > kTap) {
+      view_.mode = flipped_.before.mode;
+      view_.shown = flipped_.before.shown;
+      view_.other = flipped_.before.other;
+    }
     flipped_.key = Key{};
   }
 }

@@ -21,8 +21,13 @@ std::string NodePath::to_text(const Node& root) const {
   const Node* node = &root;
   for (const Step& step : steps_) {
     text += (text.empty() ? "" : ".") + step.slot;
+    const Slot* slot = node ? node->table().find_slot(step.slot) : nullptr;
+    if (!slot) {
+      node = nullptr;  // parts that only some kinds have hold no lists
+      continue;
+    }
     const auto list = node->list(step.slot);
-    if (node->table().find_slot(step.slot)->list) {
+    if (slot->list) {
       const auto name_of = [](const Node& n) { return n.table().find("name") ? n.text("name") : std::string(); };
       const std::string name = name_of(list[step.index]);
       const bool tells = !name.empty() && std::count_if(list.begin(), list.end(),

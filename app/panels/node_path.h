@@ -24,7 +24,8 @@ class NodePath {
   const Node* find(const Node& root) const;
   Node* find(Node& root) const { return const_cast<Node*>(find(static_cast<const Node&>(root))); }
 
-  /// As --set and variants name it: "lights.key", or "lights.2" where the name says not which.
+  /// As --set and variants name it: "lights.key", or "lights.2" where the name says not which. The object need not be
+  /// there: a variant may have another kind, with other parts.
   std::string to_text(const Node& root) const;
 
   bool operator==(const NodePath&) const = default;

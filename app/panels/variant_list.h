@@ -13,7 +13,7 @@ void draw_variant_list(Session& session, NodePath& selected, std::optional<std::
 
 /// A new variant at the end: a copy of `of`, or the scene itself; the first time the scene as it is becomes a variant
 /// too, to compare with. Nothing when there are as many as can be.
-/// @return the index of the new one
+/// @return the index of the new one, or `of`
 std::optional<std::size_t> duplicate_as_variant(Session& session, std::optional<std::size_t> of);
 
 }  // namespace brume

@@ -4,6 +4,13 @@
 
 namespace brume {
 
+void ViewState::choose_among(std::size_t count) {
+  shown = std::min(shown, std::max<std::size_t>(count, 1) - 1);
+  if (count < 2) return;  // a choice made earlier stays for when there is something to choose
+  other = std::min(other, count - 1);
+  if (other == shown) other = shown == 0 ? 1 : 0;
+}
+
 void ViewState::clamp() {
   constexpr float kMaxZoom = 256;
   zoom = std::clamp(zoom, 1.0f, kMaxZoom);

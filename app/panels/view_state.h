@@ -26,6 +26,8 @@ struct ViewState {
   float zoom = 1;                          ///< at least 1: all of it
   float center_x = 0.5f, center_y = 0.5f;  ///< as fractions of the picture
 
+  /// Of so many pictures: what is not there is not shown, and nothing is compared with itself.
+  void choose_among(std::size_t count);
   /// Keeps what is seen inside the picture.
   void clamp();
   /// By a factor about a place of the picture, which stays where it is on the screen.

@@ -86,7 +86,9 @@ void Viewport::draw_tiles(Session& session, ViewState& view, const Room& room, b
     const auto index = static_cast<std::size_t>(i);
     const PictureArea area = room.tile(i % columns, i / columns, columns, rows);
     ImGui::SetCursorScreenPos(area.min);
+    ImGui::PushID(i);  // names may be alike
     ui::canvas(("picture " + session.shown()[index].variant.name).c_str(), {area.width(), area.height()});
+    ImGui::PopID();
     handle_mouse(session, view, area);
     pictures_[index].draw(area, view);
     if (const auto p = session.picture(index)) draw_pixel_values(p->image, area, view);
@@ -97,23 +99,24 @@ void Viewport::draw_tiles(Session& session, ViewState& view, const Room& room, b
 }
 
 void Viewport::draw_wipe(Session& session, ViewState& view, const PictureArea& area) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  // Only within what is seen: a line beyond the edge could not be taken hold of again.
+  if (dragging_line_) view.wipe = area.to_picture(view, {std::clamp(mouse.x, area.min.x, area.max.x), 0}).x;
   const float line = area.to_screen(view, {view.wipe, 0}).x;
   pictures_[view.shown].draw(area, view, area.min.x, line);
   pictures_[view.other].draw(area, view, line, area.max.x);
   draw_variant_label(session, view.shown, area.min.x, area);
   draw_variant_label(session, view.other, std::max(line, area.min.x), area);
-  if (line <= area.min.x || line >= area.max.x) return;
+  if (line < area.min.x - 0.5f || line > area.max.x + 0.5f) return;  // at the edge, but for rounding, it is seen
   const float grip = std::floor(0.5f * ImGui::GetFontSize());
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddLine({line, area.min.y}, {line, area.max.y}, IM_COL32(255, 255, 255, 200), 1.5f);
   const float middle = (area.min.y + area.max.y) / 2;
   draw->AddCircleFilled({line, middle}, grip, IM_COL32(255, 255, 255, 230));
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
   const bool near = std::abs(mouse.x - line) < grip && area.contains(mouse);
   ui::record_area("wipe line", {line - grip, middle - grip}, {line + grip, middle + grip}, near);
   if (near || dragging_line_) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   if (ImGui::IsItemActivated() && near && !ImGui::GetIO().KeyCtrl) dragging_line_ = true;
-  if (dragging_line_) view.wipe = std::clamp(area.to_picture(view, mouse).x, 0.0f, 1.0f);
 }
 
 void Viewport::draw_difference(Session& session, ViewState& view, const PictureArea& area) {
@@ -143,8 +146,7 @@ void Viewport::draw(Session& session, ViewState& view, bool measured) {
   const DisplaySettings settings = display_settings(session.description().child("film"));
   const std::size_t n = session.shown().size();
   for (std::size_t i = 0; i < n; ++i) pictures_[i].show(session.picture(i), settings);
-  view.shown = std::min(view.shown, std::max<std::size_t>(n, 1) - 1);
-  view.other = std::min(view.other, std::max<std::size_t>(n, 1) - 1);
+  view.choose_among(n);
   view.clamp();
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) dragging_line_ = false;
 
