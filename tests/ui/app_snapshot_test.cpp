@@ -17,13 +17,28 @@ class AppSnapshot : public AppFixture {
     ASSERT_TRUE(force_simd_level("auto").ok());
   }
 
+  /// Each with one setting, or as the scene is.
+  void make_variants(const std::vector<Setting>& settings) {
+    session().change([&](Node& d) {
+      const Node plain(*compare_family().tables.front()->find_slot("variants")->family->tables.front());
+      d.child("compare").list("variants").assign(settings.size(), plain);
+      for (std::size_t i = 0; i < settings.size(); ++i)
+        if (!settings[i].path.empty()) set_in_variant(d, i, settings[i].path, settings[i].value);
+    });
+    session().close_step();
+    settle();
+  }
+
   testing::AssertionResult looks_like(const std::string& name) {
     // The mouse leaves every widget, so that nothing is lit up by it.
     robot().frames(2);
     Image8 image(stage_->width(), stage_->height(), 4);
     image.bytes = stage_->pixels();
     Region rendered;
-    if (const ui::ItemRecord* picture = robot().last_drawn("View/picture")) {
+    // Of several pictures it is all the room they have.
+    const ui::ItemRecord* picture = robot().last_drawn("View/picture");
+    if (!picture && session().shown().size() > 1) picture = robot().last_drawn("View");
+    if (picture) {
       const auto& r = picture->rect;
       rendered = {static_cast<int>(r.min.x), static_cast<int>(r.min.y), static_cast<int>(r.max.x - r.min.x),
                   static_cast<int>(r.max.y - r.min.y)};
@@ -101,6 +116,19 @@ TEST_F(AppSnapshot, BlackPictureExplained) {
   session().change([](Node& d) { ASSERT_TRUE(d.list("volumes")[0].set("density_scale", 0.001).ok()); });
   settle();
   EXPECT_TRUE(looks_like("black_explained"));
+}
+
+TEST_F(AppSnapshot, FourVariantsAsTiles) {
+  start(scene_path("smoke.json"), 4);
+  make_variants({{}, {"render.bounces", "0"}, {"render.distance_sampling", "density"}, {"render.bounces", "3"}});
+  EXPECT_TRUE(looks_like("compare_tiles"));
+}
+
+TEST_F(AppSnapshot, TwoVariantsAsAWipe) {
+  start(scene_path("smoke.json"), 4);
+  make_variants({{}, {"render.bounces", "0"}});
+  robot().press_key(ui::Key::W);
+  EXPECT_TRUE(looks_like("compare_wipe"));
 }
 
 TEST_F(AppSnapshot, UnsavedQuestion) {

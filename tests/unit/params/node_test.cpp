@@ -164,6 +164,15 @@ TEST(ParamPath, SetsValuesFromText) {
   EXPECT_EQ(n.number("height"), 4.5);
 }
 
+TEST(ParamPath, TellsTheTextThatWouldChangeNothing) {
+  Node n = room();
+  ASSERT_TRUE(set_by_path(n, "height", "4.5").ok());
+  EXPECT_EQ(text_by_path(n, "height").value(), "4.5");
+  ASSERT_TRUE(set_by_path(n, "lamps.0.kind", "tube").ok());
+  EXPECT_EQ(text_by_path(n, "lamps.key.kind").value(), "tube");
+  EXPECT_EQ(text_by_path(n, "hight").error().message, find_param(n, "hight").error().message);
+}
+
 TEST(ParamPath, SetsKinds) {
   Node n = room();
   EXPECT_EQ(message(set_by_path(n, "lamps.0.kind", "tube")), "no error");
