@@ -60,7 +60,7 @@ void draw_kind(const EditTarget& target, const NodePath& path, const Family& fam
   static_cast<void>(row.finish());
 }
 
-void draw_node(const EditTarget& target, const NodePath& path, const Family* family, std::optional<NodePath>& browse) {
+void draw_node(const EditTarget& target, const NodePath& path, const Family* family, std::optional<FileWish>& browse) {
   Node description = target.description();
   const Node* node = path.find(description);
   if (!node) return;
@@ -77,7 +77,7 @@ void draw_node(const EditTarget& target, const NodePath& path, const Family* fam
     else if (edit.value)
       target.set(path, p, *edit.value);
     if (edit.finished) target.session().close_step();
-    if (edit.browse) browse = path;
+    if (edit.browse) browse = {path, p.key};
   }
   for (const Slot& slot : table.slots) {
     if (slot.list) continue;
@@ -99,8 +99,8 @@ const Family* family_of(const Node& root, const NodePath& path) {
 
 }  // namespace
 
-std::optional<NodePath> draw_inspector(const EditTarget& target, const NodePath& selected) {
-  std::optional<NodePath> browse;
+std::optional<FileWish> draw_inspector(const EditTarget& target, const NodePath& selected) {
+  std::optional<FileWish> browse;
   const Node& scene = target.session().description();
   const Node* node = selected.find(scene);
   if (!node) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/panels/inspector.h"
 #include "app/panels/outliner.h"
 #include "app/panels/status_bar.h"
 #include "app/panels/variant_list.h"
@@ -113,19 +112,18 @@ void MainWindow::ask_export_chart() {
                 }});
 }
 
-void MainWindow::ask_file_of(const NodePath& volume) {
+void MainWindow::ask_file(const FileWish& wish) {
   const auto variant = edited_variant_;
   const Node description = EditTarget(session_, variant).description();
-  const Node* node = volume.find(description);
-  dialog_.open({"Choose grid file",
-                {".vdb", ".nvdb"},
-                false,
-                node ? node->text("file") : "",
-                [this, volume, variant](const std::string& path) {
+  const Node* node = wish.object.find(description);
+  const bool picture = wish.key == "reference";
+  dialog_.open({picture ? "Choose reference" : "Choose grid file",
+                picture ? std::vector<std::string>{".exr"} : std::vector<std::string>{".vdb", ".nvdb"}, false,
+                node ? node->text(wish.key) : "", [this, wish, variant](const std::string& path) {
                   const EditTarget target(session_, variant);
                   const Node edited = target.description();
-                  const Node* n = volume.find(edited);
-                  if (const Param* p = n ? n->table().find("file") : nullptr) target.set(volume, *p, path);
+                  const Node* n = wish.object.find(edited);
+                  if (const Param* p = n ? n->table().find(wish.key) : nullptr) target.set(wish.object, *p, path);
                   session_.close_step();
                 }});
 }
@@ -188,7 +186,8 @@ void MainWindow::handle_view_keys() {
   if (ui::shortcut(Key::Z)) view_.zoom = 1;
   if (ui::shortcut(Key::V)) edited_variant_ = duplicate_as_variant(session_, edited_variant_);
   // A tap shows a variant; a key that is held shows it until it is let go.
-  for (std::size_t i = 0; i < std::min(session_.shown().size(), kMaxVariants); ++i) {
+  const std::size_t count = session_.shown().size();
+  for (std::size_t i = 0; count > 1 && i < count; ++i) {
     const auto key = static_cast<Key>(static_cast<int>(Key::Num1) + static_cast<int>(i));
     if (!ui::shortcut(key)) continue;
     // The second of two that are held goes back to what there was before the first.
@@ -331,7 +330,7 @@ void MainWindow::draw_inspected() {
     ui::tooltip_on_hover("Edits become settings of this variant. Click its name in the list to edit the scene again.");
     ImGui::SameLine();
   }
-  if (const auto browse = draw_inspector(target, selected_)) ask_file_of(*browse);
+  if (const auto browse = draw_inspector(target, selected_)) ask_file(*browse);
 }
 
 void MainWindow::draw_log() {

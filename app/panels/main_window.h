@@ -3,6 +3,7 @@
 
 #include "app/panels/chart_panel.h"
 #include "app/panels/file_dialog.h"
+#include "app/panels/inspector.h"
 #include "app/panels/node_path.h"
 #include "app/panels/view_state.h"
 #include "app/panels/viewport.h"
@@ -45,7 +46,7 @@ class MainWindow {
   void ask_save_as();
   void ask_export();
   void ask_export_chart();
-  void ask_file_of(const NodePath& volume);
+  void ask_file(const FileWish& wish);
   void save();
   void report(const Result<void>& done);
   void open(const std::string& path);

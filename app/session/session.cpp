@@ -304,7 +304,7 @@ Session::Outcome Session::fulfil(const Wish& wish, const std::stop_token& cancel
   out.shown = last_committed_ = std::move(*committed);
   if (wish.truth && wish.width > 0)
     out.truth =
-        truth_finder_.find(description, cache_, options_.reference_folder, wish.width, wish.height, wish.generation);
+        truth_finder_.find(description, cache_, options_.reference_folder, wish.width, wish.height, ++commits_);
   return out;
 }
 

@@ -307,6 +307,17 @@ TEST_F(CompareUi, FileChosenForAVariantIsThatOfTheVariant) {
   EXPECT_EQ(session().problem(), "");
 }
 
+TEST_F(CompareUi, ReferenceIsChosenAmongPictures) {
+  start();
+  ASSERT_TRUE(done(robot().click("Scene/Compare")));
+  ASSERT_TRUE(done(robot().click("Inspector/choose...")));
+  const std::string path = std::string(BRUME_TEST_OUTPUT_DIR) + "/reference.exr";
+  ASSERT_TRUE(session().export_picture(path).ok());
+  ASSERT_TRUE(done(robot().type_into("Choose reference/path", path)));
+  if (robot().exists("Choose reference/Open")) ASSERT_TRUE(done(robot().click("Choose reference/Open")));
+  EXPECT_EQ(session().description().child("compare").text("reference"), path);
+}
+
 // --- Their pictures
 
 TEST_F(CompareUi, EachPictureIsBitForBitThatOfItsSceneRenderedAlone) {
@@ -396,6 +407,15 @@ TEST_F(CompareUi, TapOnANumberShowsThatVariantAndSShowsAll) {
   EXPECT_TRUE(robot().exists("View/picture A"));
   EXPECT_TRUE(robot().exists("View/picture B"));
   EXPECT_FALSE(robot().exists("View/picture"));
+}
+
+TEST_F(CompareUi, NumberPressedBeforeThereAreVariantsHidesNoneLater) {
+  start();
+  robot().press_key(Key::Num1);
+  robot().press_key(Key::V);
+  settle();
+  EXPECT_TRUE(robot().exists("View/picture A"));
+  EXPECT_TRUE(robot().exists("View/picture B"));
 }
 
 TEST_F(CompareUi, NumberThatIsHeldShowsItsVariantUntilItIsLetGo) {
