@@ -125,6 +125,7 @@ Command make_snapshot(CLI::App& root) {
                 .between(1, 1 << 24)
                 .says("Samples per pixel of the rendered view"),
             [o](const Value& v) { o->snapshot.samples = to_int(v); });
+  app->add_flag("--chart", o->snapshot.chart, "With the chart of errors against time");
   add_settings(*app, o->scene);
   return {app, [o] { return run_snapshot_command(o->scene, o->snapshot); }};
 }

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "app/panels/main_window.h"
+#include "app/session/user_folders.h"
 #include "app/ui/stage.h"
 #include "app/ui/ui_fonts.h"
 #include "renderer/film/image_io.h"
@@ -23,14 +24,16 @@ Image8 as_image(const Stage& stage) {
 Result<void> run_snapshot(LoadedScene scene, const SnapshotOptions& options) {
   auto stage = Stage::create({.width = options.width, .height = options.height, .font_paths = ui_font_paths()});
   if (!stage) return stage.error();
-  Session session({.max_samples = options.samples});
+  Session session({.max_samples = options.samples, .reference_folder = reference_folder()});
   session.start(std::move(scene.description), scene.scene_path);
-  MainWindow window(session, (*stage)->gl());
+  MainWindow window(session, (*stage)->gl(), {.chart = options.chart});
   const auto draw = [&](const Gl&) { window.draw(); };
 
   // Frames go on, as in a window, until the picture has all its samples and has been drawn.
   for (bool finished = false; !finished;) {
-    finished = session.finished();
+    const Truth& truth = session.truth();
+    const bool known = (truth.reference() && !truth.job()) || !truth.problem().empty();
+    finished = session.finished() && (!options.chart || known);
     (*stage)->frame(draw);
     if (!session.problem().empty()) return bad_input(session.problem());
     if (!finished) std::this_thread::sleep_for(std::chrono::milliseconds(5));

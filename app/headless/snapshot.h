@@ -8,7 +8,8 @@ namespace brume {
 struct SnapshotOptions {
   std::string output;  ///< .png
   int width = 1400, height = 900;
-  int samples = 16;  ///< per pixel
+  bool chart = false;  ///< with the chart of errors, for which the reference is waited for
+  int samples = 16;    ///< per pixel
 };
 
 Result<void> run_snapshot(LoadedScene scene, const SnapshotOptions& options);

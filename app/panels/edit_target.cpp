@@ -23,7 +23,8 @@ std::string EditTarget::path_of(const NodePath& object, const std::string& key) 
 }
 
 bool EditTarget::goes_to_variant(const NodePath& object, const std::string& key) const {
-  return variant_ && !is_common(path_of(object, key));
+  // Names too are common: settings find objects by them.
+  return variant_ && key != "name" && !is_common(path_of(object, key));
 }
 
 bool EditTarget::is_set(const NodePath& object, const std::string& key) const {
@@ -40,15 +41,20 @@ void EditTarget::set(const NodePath& object, const Param& param, const Value& va
     return;
   }
   session_.change([&](Node& d) {
+    const std::string before = object.to_text(d);
     // Refused values (a widget cannot know every rule) leave the description as it was.
     if (Node* n = object.find(d)) static_cast<void>(n->set(param.key, value).ok());
+    if (param.key == "name") rename_in_variants(d, before, object.to_text(d));
   });
 }
 
 void EditTarget::set_kind(const NodePath& object, const Family& family, const ParamTable& kind) const {
   if (goes_to_variant(object, family.type_key)) {
     const std::string path = path_of(object, family.type_key);
-    session_.change([&](Node& d) { set_in_variant(d, *variant_, path, kind.key); });
+    session_.change([&](Node& d) {
+      set_in_variant(d, *variant_, path, kind.key);
+      drop_refused_settings(d, *variant_);
+    });
     return;
   }
   session_.change([&](Node& d) {

@@ -46,7 +46,11 @@ constexpr Shortcut kHelp[] = {{"Left drag", "orbit"},
 }  // namespace
 
 MainWindow::MainWindow(Session& session, const Gl& gl, const MainWindowOptions& options)
-    : session_(session), options_(options), viewport_(gl), selected_(NodePath().child("render")) {}
+    : session_(session),
+      options_(options),
+      viewport_(gl),
+      selected_(NodePath().child("render")),
+      show_chart_(options.chart) {}
 
 void MainWindow::draw() {
   session_.update();
@@ -68,7 +72,10 @@ void MainWindow::report(const Result<void>& done) {
 }
 
 void MainWindow::open(const std::string& path) {
-  unless_unsaved([this, path] { session_.open(path); });
+  unless_unsaved([this, path] {
+    edited_variant_.reset();  // of the scene that is left
+    session_.open(path);
+  });
 }
 
 void MainWindow::drop(const std::vector<std::string>& paths) {

@@ -14,6 +14,7 @@ namespace brume {
 
 struct MainWindowOptions {
   bool measured = true;  ///< false leaves out what differs between runs, for pictures that tests compare
+  bool chart = false;    ///< the chart is open from the beginning
 };
 
 class MainWindow {

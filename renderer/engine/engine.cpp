@@ -54,7 +54,7 @@ Engine::~Engine() {
 void Engine::submit(std::vector<Job> jobs, bool restart) {
   const std::lock_guard lock(mutex_);
   wishes_ = std::move(jobs);
-  wished_ = true;
+  wished_ = news_ = true;
   restart_ |= restart;
   cancel_ = restart_ || !running_ || std::find(wishes_.begin(), wishes_.end(), *running_) == wishes_.end();
   changed_.notify_all();
@@ -120,7 +120,7 @@ void Engine::take_up_wishes(std::vector<Progress>& jobs) {
     const std::lock_guard lock(mutex_);
     wishes = wishes_;
     restart = std::exchange(restart_, false);
-    wished_ = false;
+    wished_ = news_ = false;
     cancel_ = false;
   }
   std::vector<Progress> old = std::move(jobs);
@@ -212,20 +212,20 @@ double Engine::render_slice(Progress& job, std::size_t jobs) {
     const double affordable = kTurnSeconds * pool_.threads() / seconds_per_tile;
     if (affordable < tiles) turn.end = std::min(tiles, turn.first + std::max(pool_.threads(), int(affordable)));
   }
-  const bool complete =
+  const auto end =
       render_pass(*job.job.scene, *job.integrator, job.job.first_sample + static_cast<std::uint32_t>(samples), job.film,
-                  pool_, cancelled(), turn);
+                  pool_, cancelled(), turn, [this] { return news_.load(); });
   account(job, start);
-  job.spoiled |= !complete;
-  if (!complete) return 0;
-  job.next_tile = turn.end;
+  job.spoiled |= !end;
+  if (!end) return 0;
+  job.next_tile = *end;
   if (job.next_tile == tiles) {
     job.next_tile = 0;
     ++job.statistics.samples_per_pixel;
     if (Clock::now() - job.published >= kLeastPublishInterval || job.finished())
       publish(job, view_of(job.film, pool_), 1);
   }
-  return static_cast<double>(width) * height * (turn.end - turn.first) / tiles;
+  return static_cast<double>(width) * height * (*end - turn.first) / tiles;
 }
 
 void Engine::publish(Progress& job, FilmView view, int divisor) {

@@ -103,6 +103,7 @@ class Engine {
   std::vector<std::shared_ptr<const Picture>> pictures_;
 
   std::atomic<bool> cancel_ = false;  // what has a turn now is not wanted any more
+  std::atomic<bool> news_ = false;    // = wished_, for workers: what has a turn now ends it soon
   std::atomic<bool> stopping_ = false;
   // The rest is the director's own.
   std::size_t first_look_ = 0;           // job that may show its first picture next

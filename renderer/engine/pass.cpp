@@ -1,6 +1,7 @@
 #include "renderer/engine/pass.h"
 
 #include <atomic>
+#include <mutex>
 
 namespace brume {
 namespace {
@@ -13,14 +14,40 @@ struct Grid {
   int rows() const { return (height + kTileSize - 1) / kTileSize; }
 };
 
-/// Calls pixel(x, y, worker) for every pixel.  @return false when it was cancelled
+/// Where a slice ends: such that all tiles before the end have begun and none after it, whichever thread asks first.
+class SliceEnd {
+ public:
+  SliceEnd(int end, const Cancelled& enough) : end_(end), enough_(enough) {}
+
+  bool begins(int tile) {
+    const std::lock_guard lock(mutex_);
+    if (!ended_ && enough_ && enough_()) {
+      ended_ = true;
+      end_ = std::max(last_begun_ + 1, tile);
+    }
+    if (tile >= end_) return false;
+    last_begun_ = std::max(last_begun_, tile);
+    return true;
+  }
+  int tile() const { return end_; }
+
+ private:
+  std::mutex mutex_;
+  int end_, last_begun_ = -1;
+  bool ended_ = false;
+  const Cancelled& enough_;
+};
+
+/// Calls pixel(x, y, worker) for every pixel.  @return as render_pass()
 template <class Pixel>
-bool for_each_pixel(const Grid& grid, WorkerPool& pool, const Cancelled& cancelled, TileRange tiles,
-                    const Pixel& pixel) {
+std::optional<int> for_each_pixel(const Grid& grid, WorkerPool& pool, const Cancelled& cancelled, TileRange tiles,
+                                  const Cancelled& enough, const Pixel& pixel) {
   std::atomic<bool> stopped = false;
-  const int end = std::min(tiles.end, grid.columns() * grid.rows());
-  pool.run(std::max(end - tiles.first, 0), [&](int i, Worker& worker) {
+  const int last = std::min(tiles.end, grid.columns() * grid.rows());
+  SliceEnd end(last, enough);
+  pool.run(std::max(last - tiles.first, 0), [&](int i, Worker& worker) {
     const int tile = tiles.first + i;
+    if (!end.begins(tile)) return;
     const int x0 = tile % grid.columns() * kTileSize, y0 = tile / grid.columns() * kTileSize;
     for (int y = y0; y < std::min(y0 + kTileSize, grid.height); ++y) {
       if (stopped || (cancelled && cancelled())) {
@@ -30,7 +57,8 @@ bool for_each_pixel(const Grid& grid, WorkerPool& pool, const Cancelled& cancell
       for (int x = x0; x < std::min(x0 + kTileSize, grid.width); ++x) pixel(x, y, worker);
     }
   });
-  return !stopped;
+  if (stopped) return std::nullopt;
+  return end.tile();
 }
 
 /// The pass's sample of the pixel (x, y) of a picture of width x height.
@@ -52,12 +80,12 @@ int tile_count(int width, int height) {
   return grid.columns() * grid.rows();
 }
 
-bool render_pass(const Scene& scene, const Integrator& integrator, std::uint32_t sample, Film& film, WorkerPool& pool,
-                 const Cancelled& cancelled, TileRange tiles) {
+std::optional<int> render_pass(const Scene& scene, const Integrator& integrator, std::uint32_t sample, Film& film,
+                               WorkerPool& pool, const Cancelled& cancelled, TileRange tiles, const Cancelled& enough) {
   const Grid grid{film.width(), film.height()};
   const Sampler pass(scene.render.sampler, scene.render.seed, 0, sample);
   const Sampler twin_pass(scene.render.sampler, scene.render.seed ^ kTwinSeed, 0, sample);
-  return for_each_pixel(grid, pool, cancelled, tiles, [&](int x, int y, Worker& worker) {
+  return for_each_pixel(grid, pool, cancelled, tiles, enough, [&](int x, int y, Worker& worker) {
     if (!film.add_sample(x, y, sample_pixel(scene, integrator, grid, x, y, pass, worker)))
       ++worker.statistics.non_finite;
     if (Film::has_twin(x, y))
@@ -70,13 +98,14 @@ bool render_coarse(const Scene& scene, const Integrator& integrator, int width, 
   const Grid grid{(width + divisor - 1) / divisor, (height + divisor - 1) / divisor};
   const Sampler pass(scene.render.sampler, scene.render.seed, 0, 0);
   image = Image(grid.width, grid.height);
-  return for_each_pixel(grid, pool, cancelled, {}, [&](int x, int y, Worker& worker) {
+  const auto end = for_each_pixel(grid, pool, cancelled, {}, {}, [&](int x, int y, Worker& worker) {
     const Color c = sample_pixel(scene, integrator, grid, x, y, pass, worker);
     if (is_finite(c))
       image.at(x, y) = c;
     else
       ++worker.statistics.non_finite;
   });
+  return end.has_value();
 }
 
 FilmView view_of(const Film& film, WorkerPool& pool) {

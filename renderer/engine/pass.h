@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "renderer/engine/worker_pool.h"
 #include "renderer/film/film.h"
@@ -25,9 +26,12 @@ int tile_count(int width, int height);
 /// Adds sample number `sample` to the pixels of the film, whose size is the picture's. A pixel's samples depend on
 /// the scene, its position and the sample number only, so any number of threads gives the same bits.
 /// @param tiles  a pass may be made in slices
-/// @return false when it was cancelled; the film then holds part of the pass
-bool render_pass(const Scene& scene, const Integrator& integrator, std::uint32_t sample, Film& film, WorkerPool& pool,
-                 const Cancelled& cancelled, TileRange tiles = {});
+/// @param enough  asked before every tile; true ends the slice with the tiles that have begun
+/// @return where the slice has ended: the first tile that is not rendered. Nothing when it was cancelled; the film then
+/// holds part of the pass
+std::optional<int> render_pass(const Scene& scene, const Integrator& integrator, std::uint32_t sample, Film& film,
+                               WorkerPool& pool, const Cancelled& cancelled, TileRange tiles = {},
+                               const Cancelled& enough = {});
 
 /// A picture of the same view, smaller by `divisor` in width and height (rounded up), one sample per pixel.
 /// @param width, height  of the full picture.  @return false when it was cancelled

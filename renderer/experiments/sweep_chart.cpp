@@ -77,9 +77,10 @@ bool is_error(const SweepAxis& axis) {
   return axis.key != "seconds_per_sample" && axis.key != "cpu_seconds" && !axis.settled;
 }
 
-/// "ray_march: n^1.98"
+/// "ray_march: n^1.98", of the upper half of the points: below it, what does not depend on the steps counts most.
 void name_exponent(Series& series) {
-  const auto exponent = fitted_exponent(series.points);
+  const auto middle = series.points.begin() + static_cast<std::ptrdiff_t>(series.points.size() / 2);
+  const auto exponent = fitted_exponent({middle, series.points.end()});
   if (!exponent) return;
   char text[32];
   std::snprintf(text, sizeof text, ": n^%.2f", *exponent);

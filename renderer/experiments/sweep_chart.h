@@ -26,7 +26,7 @@ std::vector<std::string> sweep_axis_keys();
 
 /// y against x, both logarithmic where all values are above 0: a line for each variant along the time, or, where x is
 /// settled, for each series along its variants. Errors have a guide of slope -1/2 against time and the reference's own
-/// error as a level; costs against steps have the exponent fitted to each line in its name.
+/// error as a level; costs against steps have the exponent fitted to the upper half of each line in its name.
 Chart chart_of(const Sweep& sweep, const SweepAxis& x, const SweepAxis& y, const std::string& title);
 
 /// Least-squares slope of log y over log x; nothing for fewer than two points above 0 at different x.

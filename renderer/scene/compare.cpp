@@ -81,9 +81,10 @@ Result<std::vector<Variant>> variants_of(const Node& description) {
         {"", 0, 0, "compare.variants"});
   std::vector<Variant> variants;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!nodes[i].flag("enabled")) continue;
     auto variant = variant_of(description, i);
     if (!variant) return variant.error();
-    if (nodes[i].flag("enabled")) variants.push_back(std::move(*variant));
+    variants.push_back(std::move(*variant));
   }
   if (!variants.empty()) return variants;
   return std::vector<Variant>{{"scene", without_variants(description)}};
@@ -113,6 +114,23 @@ void unset_in_variant(Node& description, std::size_t variant, const std::string&
   Settings settings = node.settings("set");
   std::erase_if(settings, [&](const Setting& s) { return s.path == path; });
   static_cast<void>(node.set("set", std::move(settings)).ok());
+}
+
+void drop_refused_settings(Node& description, std::size_t variant) {
+  Node scene = without_variants(description);
+  Node& node = variant_node(description, variant);
+  Settings settings = node.settings("set");
+  std::erase_if(settings, [&](const Setting& s) { return !apply(s, scene).ok(); });
+  static_cast<void>(node.set("set", std::move(settings)).ok());
+}
+
+void rename_in_variants(Node& description, const std::string& from, const std::string& to) {
+  for (Node& node : description.child("compare").list("variants")) {
+    Settings settings = node.settings("set");
+    for (Setting& s : settings)
+      if (s.path.starts_with(from + ".")) s.path = to + s.path.substr(from.size());
+    static_cast<void>(node.set("set", std::move(settings)).ok());
+  }
 }
 
 }  // namespace brume

@@ -40,6 +40,10 @@ std::string variant_letter(std::size_t index);
 
 /// Sets a parameter in a variant of `description` to what a person may type; other settings keep their order.
 void set_in_variant(Node& description, std::size_t variant, const std::string& path, const std::string& value);
+/// Takes away what cannot be set any more: settings of parts that another kind of object does not have.
+void drop_refused_settings(Node& description, std::size_t variant);
+/// Settings of the object at one path are those of the object at another: it was renamed.
+void rename_in_variants(Node& description, const std::string& from, const std::string& to);
 /// As in the scene again.
 void unset_in_variant(Node& description, std::size_t variant, const std::string& path);
 

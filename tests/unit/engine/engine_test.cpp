@@ -155,6 +155,27 @@ TEST(Engine, GivesTheSameBitsAsTheBatchRenderer) {
   }
 }
 
+TEST(RenderPass, InSlicesThatEndAnywhereIsTheSamePass) {
+  constexpr int kSide = 300;  // a hundred tiles
+  const auto scene = scene_of(1, 1, "0");
+  const auto integrator = make_integrator(*scene);
+  WorkerPool pool(7);
+  Film film(kSide, kSide);
+  int slices = 0;
+  for (std::uint32_t sample = 0; sample < 3; ++sample)
+    for (int tile = 0; tile < tile_count(kSide, kSide); ++slices) {
+      std::atomic<int> asked = 0;
+      const auto end = render_pass(*scene, *integrator, sample, film, pool, {}, {tile, tile + 40},
+                                   [&] { return ++asked > slices % 13; });
+      ASSERT_TRUE(end);
+      ASSERT_GE(*end, tile);
+      ASSERT_LE(*end, tile + 40);
+      tile = *end;
+    }
+  EXPECT_GT(slices, 20);
+  EXPECT_TRUE(film.mean_image() == batch(*scene, 3, 2, kSide, kSide));
+}
+
 TEST(Engine, HasNoPictureBeforeTheFirstAndNoneOfJobsThatDoNotExist) {
   Engine engine({.threads = 1});
   EXPECT_EQ(engine.picture(), nullptr);

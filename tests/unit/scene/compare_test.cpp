@@ -105,6 +105,28 @@ TEST(Compare, ASettingIsChangedInItsPlaceAndTakenAway) {
   EXPECT_EQ(settings(), (Settings{{"render.bounces", "3"}, {"render.light_samples", "2"}}));
 }
 
+TEST(Compare, AVariantThatIsOffNeedNotBeRight) {
+  Node scene = with_variants({{}, {{"render.nothing", "1"}}});
+  EXPECT_FALSE(variants_of(scene).ok());
+  set(scene, "compare.variants.1.enabled", "false");
+  ASSERT_TRUE(variants_of(scene).ok());
+  EXPECT_EQ(variants_of(scene)->size(), 1u);
+}
+
+TEST(Compare, SettingsFollowAnObjectThatIsRenamedAndLeaveOneThatIsReplaced) {
+  Node scene = with_variants(
+      {{{"volumes.0.albedo", "0.5"}, {"render.integrator", "delta_tracking"}, {"render.russian_roulette", "true"}}});
+  set(scene, "volumes.0.name", "plume");
+  rename_in_variants(scene, "volumes.0", "volumes.plume");
+  const auto settings = [&] { return scene.child("compare").list("variants")[0].settings("set"); };
+  EXPECT_EQ(settings()[0].path, "volumes.plume.albedo");
+  set_in_variant(scene, 0, "render.step_size", "0.1");
+  EXPECT_FALSE(variants_of(scene).ok()) << "delta tracking takes no steps";
+  drop_refused_settings(scene, 0);
+  EXPECT_EQ(settings().size(), 3u);
+  EXPECT_TRUE(variants_of(scene).ok());
+}
+
 TEST(Compare, SettingsCanBeTyped) {
   Node scene = with_variants({{}});
   set(scene, "compare.variants.0.set", "render.bounces=2; render.integrator = ray_march");
