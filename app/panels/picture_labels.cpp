@@ -65,13 +65,15 @@ void draw_variant_figures(const Session& session, std::size_t index, const Pictu
   const double rays = static_cast<double>(s.rays.rays + s.rays.shadow_rays);
   text += measured ? formatted("   %.2f CPU s", s.cpu_seconds) : "   - CPU s";
   text += measured && s.cpu_seconds > 0 ? formatted("   %.2f Mrays/s", 1e-6 * rays / s.cpu_seconds) : "   - Mrays/s";
-  if (picture->divisor == 1) text += formatted("   noise %.2f %%", 100 * picture->noise);
   const auto errors = session.errors();
   const auto last = std::find_if(errors->rows.begin(), errors->rows.end(),
                                  [&](const SweepRow& r) { return r.variant == index && r.last; });
+  // What is known is better than what is estimated, and there is not room for both.
   if (measured && last != errors->rows.end())
     text += formatted("   RMSE %.2g", last->errors.rmse) +
             formatted("   bias %+.2f %%", 100 * last->errors.relative_mean_bias);
+  else if (picture->divisor == 1)
+    text += formatted("   noise %.2f %%", 100 * picture->noise);
   ImGui::GetWindowDrawList()->PushClipRect(area.min, area.max, true);
   draw_line(area.min.x, area.max.y - std::floor(1.4f * ImGui::GetFontSize()), text,
             ImGui::GetColorU32(ImGuiCol_TextDisabled));
