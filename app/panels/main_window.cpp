@@ -28,6 +28,7 @@ constexpr Shortcut kHelp[] = {{"Left drag", "orbit"},
                               {"Ctrl+wheel, Ctrl+drag, Z", "zoom into the picture, move in it, all of it"},
                               {"1-4", "show a variant; hold to flip"},
                               {"S, W, D", "variants side by side, wipe, difference"},
+                              {"Shift+D", "difference from the reference"},
                               {"V", "duplicate as variant"},
                               {"C", "chart of error against time"},
                               {"E, Shift+E", "exposure up, down"},
@@ -189,7 +190,8 @@ void MainWindow::handle_view_keys() {
   using ui::Key;
   if (ui::shortcut(Key::S)) view_.mode = ViewMode::Tiles;
   if (ui::shortcut(Key::W)) view_.mode = ViewMode::Wipe;
-  if (ui::shortcut(Key::D)) view_.mode = ViewMode::Difference;
+  if (ui::shortcut(Key::D)) view_.mode = ViewMode::Difference, view_.against_truth = false;
+  if (ui::shortcut(Key::D, {.shift = true})) view_.mode = ViewMode::Difference, view_.against_truth = true;
   if (ui::shortcut(Key::Z)) view_.zoom = 1;
   if (ui::shortcut(Key::V)) edited_variant_ = duplicate_as_variant(session_, edited_variant_);
   // A tap shows a variant; a key that is held shows it until it is let go.
@@ -251,7 +253,11 @@ void MainWindow::draw_menu() {
     mode("Side by side", "S", ViewMode::Tiles);
     mode("Single", "1-4", ViewMode::Single);
     mode("Wipe", "W", ViewMode::Wipe);
-    mode("Difference", "D", ViewMode::Difference);
+    const bool differs = view_.mode == ViewMode::Difference;
+    if (ui::menu_item("Difference", "D", differs && !view_.against_truth, session_.shown().size() > 1))
+      view_.mode = ViewMode::Difference, view_.against_truth = false;
+    if (ui::menu_item("Difference from the reference", "Shift+D", differs && view_.against_truth))
+      view_.mode = ViewMode::Difference, view_.against_truth = true;
     ImGui::Separator();
     if (ui::menu_item("Chart", "C", show_chart_)) show_chart_ = !show_chart_;
     ImGui::Separator();
@@ -289,7 +295,7 @@ void MainWindow::draw_panels() {
   const float left = show_panels_ ? std::floor(15 * em) : 0, right = show_panels_ ? std::floor(24 * em) : 0;
   const float status = show_panels_ ? std::floor(2 * em) : 0, log = show_log_ && show_panels_ ? std::floor(9 * em) : 0;
   const float chart = show_chart_ && show_panels_ ? std::floor(22 * em) : 0;
-  session_.want_truth(chart > 0);
+  session_.want_truth(chart > 0 || (view_.mode == ViewMode::Difference && view_.against_truth));
   const float height = io.DisplaySize.y - top - status;
   const auto panel = [&](const char* name, float x, float y, float w, float h, ImGuiWindowFlags flags = 0) {
     ImGui::SetNextWindowPos({x, y});

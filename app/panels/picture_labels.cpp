@@ -85,7 +85,9 @@ void draw_difference_legend(const Session& session, const ViewState& view, doubl
                                    "squared difference from"};
   const auto name = [&](std::size_t i) { return session.shown()[i].variant.name; };
   draw_line(area.min.x, area.min.y,
-            name(view.shown) + " " + kWhat[static_cast<int>(view.difference)] + " " + name(view.other), plain_color());
+            name(view.shown) + " " + kWhat[static_cast<int>(view.difference)] + " " +
+                (view.against_truth ? "the reference" : name(view.other)),
+            plain_color());
 
   const float em = ImGui::GetFontSize(), width = std::min(16 * em, area.width() - 4 * em),
               height = std::floor(0.8f * em);

@@ -21,6 +21,7 @@ struct ViewState {
   std::size_t other = 1;  ///< the one right of the line, the reference of the difference
   float wipe = 0.5f;  ///< where the line is, as a fraction of the picture's width: it keeps its place in the picture
   DifferenceKind difference = DifferenceKind::Signed;
+  bool against_truth = false;  ///< the difference is that from the reference, not from `other`
 
   // The part of the pictures that is seen, the same of all.
   float zoom = 1;                          ///< at least 1: all of it

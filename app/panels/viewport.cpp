@@ -120,17 +120,23 @@ void Viewport::draw_wipe(Session& session, ViewState& view, const PictureArea& a
 }
 
 void Viewport::draw_difference(Session& session, ViewState& view, const PictureArea& area) {
-  const auto test = session.picture(view.shown), reference = session.picture(view.other);
+  const auto image_of = [](const auto& owner) {
+    return owner ? std::shared_ptr<const Image>(owner, &owner->image) : nullptr;
+  };
+  const auto test = image_of(session.picture(view.shown));
+  const auto reference =
+      view.against_truth ? image_of(session.truth().reference()) : image_of(session.picture(view.other));
   auto& d = differing_;
   if (test && reference && (test != d.test || reference != d.reference || view.difference != d.kind)) {
     d.test = test, d.reference = reference, d.kind = view.difference;
     // Coarse pictures of different sizes have no difference; the last one stays until there are others.
-    if (const auto map = difference_map(test->image, reference->image, view.difference)) {
+    if (const auto map = difference_map(*test, *reference, view.difference)) {
       difference_.show(map->image);
       d.range = map->range;
     }
   }
-  if (!(d.range > 0)) return;
+  if (!reference) draw_plate(area, area.height() / 2, "The reference is being rendered...");
+  if (!(d.range > 0) || !reference) return;
   difference_.draw(area, view);
   draw_difference_legend(session, view, d.range, area);
 }
@@ -157,7 +163,7 @@ void Viewport::draw(Session& session, ViewState& view, bool measured) {
     ui::canvas("picture", {whole.width(), whole.height()});
     if (n > 1 && view.mode == ViewMode::Wipe)
       draw_wipe(session, view, whole);
-    else if (n > 1 && view.mode == ViewMode::Difference)
+    else if (view.mode == ViewMode::Difference && (n > 1 || view.against_truth))
       draw_difference(session, view, whole);
     else
       draw_single(session, view, whole);

@@ -29,7 +29,7 @@ class Viewport {
   std::vector<PictureTexture> pictures_;  // of the variants
   PictureTexture difference_;
   struct {
-    std::shared_ptr<const Picture> test, reference;
+    std::shared_ptr<const Image> test, reference;
     DifferenceKind kind = {};
     double range = 0;  // 0: there is no map
   } differing_;

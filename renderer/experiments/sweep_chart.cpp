@@ -80,7 +80,8 @@ bool is_error(const SweepAxis& axis) {
 /// "ray_march: n^1.98", of the upper half of the points: below it, what does not depend on the steps counts most.
 void name_exponent(Series& series) {
   const auto middle = series.points.begin() + static_cast<std::ptrdiff_t>(series.points.size() / 2);
-  const auto exponent = fitted_exponent({middle, series.points.end()});
+  auto exponent = fitted_exponent({middle, series.points.end()});
+  if (!exponent) exponent = fitted_exponent(series.points);  // too few to have halves
   if (!exponent) return;
   char text[32];
   std::snprintf(text, sizeof text, ": n^%.2f", *exponent);

@@ -41,6 +41,14 @@ class ChartPanelTest : public AppFixture {
     session().change([](Node& d) { set_in_variant(d, 1, "render.step_size", "0.4"); });
     settle();
   }
+  /// Two variants, both measured, and nothing more is rendered.
+  void with_a_still_chart() {
+    with_two_variants();
+    robot().press_key(ui::Key::C);
+    ASSERT_TRUE(measured(2));
+    session().set_paused(true);
+    robot().frames(30);
+  }
 };
 
 TEST_F(ChartPanelTest, ErrorsAreMeasuredWhileTheChartIsOpenAgainstAReferenceRenderedBeside) {
@@ -73,11 +81,7 @@ TEST_F(ChartPanelTest, ErrorsAreMeasuredWhileTheChartIsOpenAgainstAReferenceRend
 }
 
 TEST_F(ChartPanelTest, AnEditOfOneVariantKeepsTheErrorsOfTheOther) {
-  with_two_variants();
-  robot().press_key(ui::Key::C);
-  ASSERT_TRUE(measured(2));
-  session().set_paused(true);
-  robot().frames(30);
+  with_a_still_chart();
   const auto before = session().errors();
   session().change([](Node& d) { set_in_variant(d, 1, "render.step_size", "0.3"); });
   for (int i = 0; i < 3000 && session().errors()->scenes == before->scenes; ++i) {
@@ -92,12 +96,40 @@ TEST_F(ChartPanelTest, AnEditOfOneVariantKeepsTheErrorsOfTheOther) {
   EXPECT_EQ(of_b, 0u);
 }
 
-TEST_F(ChartPanelTest, WhatIsExportedIsWhatIsSeen) {
-  with_two_variants();
-  robot().press_key(ui::Key::C);
-  ASSERT_TRUE(measured(2));
+TEST_F(ChartPanelTest, TheDifferenceFromTheReferenceIsShownOfOneSceneToo) {
+  start(scene_path("smoke.json"), kEndless, 900, 700);
+  EXPECT_FALSE(session().truth().wanted());
+  robot().press_key(ui::Key::D, {.shift = true});
+  robot().frames(2);
+  EXPECT_TRUE(session().truth().wanted());
+  const auto middle = [&] {
+    const auto* item = robot().last_drawn("View/picture");
+    const auto pixels = stage_->pixels();
+    const auto at = (static_cast<std::size_t>(item->rect.center().y) * static_cast<std::size_t>(stage_->width()) +
+                     static_cast<std::size_t>(item->rect.center().x)) *
+                    4;
+    return std::array<int, 3>{pixels[at], pixels[at + 1], pixels[at + 2]};
+  };
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+  while (!session().truth().reference() && std::chrono::steady_clock::now() < deadline) robot().frames(1);
+  ASSERT_TRUE(session().truth().reference());
   session().set_paused(true);
   robot().frames(30);
+  // Signed differences are blue or red, never the smoke's grey.
+  int colourful = 0;
+  for (int i = 0; i < 8; ++i) {
+    robot().frames(1);
+    const auto c = middle();
+    colourful += std::abs(c[0] - c[2]) > 20 || c[0] + c[1] + c[2] < 60;
+  }
+  EXPECT_EQ(colourful, 8);
+  robot().press_key(ui::Key::S);
+  robot().frames(3);
+  EXPECT_FALSE(session().truth().wanted()) << "nobody looks at it any more";
+}
+
+TEST_F(ChartPanelTest, WhatIsExportedIsWhatIsSeen) {
+  with_a_still_chart();
   ASSERT_TRUE(done(robot().click("Chart/Cheapest")));
   EXPECT_TRUE(robot().exists("Chart/Apply best"));
   ChartPanel panel;
@@ -115,11 +147,7 @@ TEST_F(ChartPanelTest, WhatIsExportedIsWhatIsSeen) {
 }
 
 TEST_F(ChartPanelTest, TheBestVariantsSettingsAreGivenToTheScene) {
-  with_two_variants();
-  robot().press_key(ui::Key::C);
-  ASSERT_TRUE(measured(2));
-  session().set_paused(true);
-  robot().frames(30);
+  with_a_still_chart();
   ASSERT_TRUE(done(robot().click("Chart/Cheapest")));
   const auto sweep = session().errors();
   const auto best = best_row(*sweep, *find_sweep_axis("rmse_net"), {});

@@ -77,6 +77,20 @@ TEST(SweepChart, ExponentsAreFittedByLeastSquares) {
   EXPECT_FALSE(fitted_exponent({{2, 1}}));
 }
 
+TEST(SweepChart, CostsAgainstStepsSayTheirExponent) {
+  // Steps 0.1, 0.2 of one series: half as many steps in the second, a quarter of the cost.
+  const Sweep sweep = made_up({4, 1}, {{0.5}, {0.5}});
+  const Chart chart = chart_of(sweep, axis("step_size"), axis("seconds_per_sample"), "");
+  EXPECT_EQ(chart.series[0].name, "first") << "only against the number of steps";
+  Sweep with_volume = sweep;
+  for (std::size_t v = 0; v < 2; ++v) {
+    Node scene = with_volume.variants[v].description;
+    add_volume(scene, "homogeneous");
+    with_volume.scenes[v] = committed(scene);
+  }
+  EXPECT_EQ(chart_of(with_volume, axis("steps"), axis("seconds_per_sample"), "").series[0].name, "first: n^2.00");
+}
+
 TEST(SweepChart, TheReferencesNoiseIsTakenOutAndShown) {
   Sweep sweep = made_up({1}, {{0.5, 0.3}});
   sweep.references[0].variance = 0.16;
