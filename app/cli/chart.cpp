@@ -9,11 +9,10 @@
 #include "app/cli/output_file.h"
 #include "app/cli/progress_line.h"
 #include "app/cli/text_table.h"
-#include "app/headless/chart_png.h"
+#include "app/headless/chart_file.h"
 #include "app/session/user_folders.h"
-#include "renderer/analysis/chart_svg.h"
-#include "renderer/core/atomic_file.h"
-#include "renderer/core/input_file.h"
+#include "app/ui/formatted.h"
+#include "renderer/analysis/chart_layout.h"
 #include "renderer/experiments/sweep_chart.h"
 #include "renderer/integrators/registry.h"
 #include "renderer/scene_io/scene_file.h"
@@ -35,7 +34,8 @@ Result<void> check(const ChartOptions& o) {
   if (!find_sweep_axis(o.y)) return unknown("--y", "quantity", o.y, sweep_axis_keys());
   if (!o.variants.empty() && !o.methods.empty())
     return bad_input("found --variants as well, expected one of the two", {"", 0, 0, "--methods"});
-  if ((o.front || o.target || !o.best.empty()) && (o.x != "cpu_seconds" || find_sweep_axis(o.y)->settled))
+  if ((o.front || o.target || !o.best.empty()) &&
+      (o.x != "cpu_seconds" || find_sweep_axis(o.y)->kind != SweepAxis::Kind::Error))
     return bad_input(
         "found a chart of " + o.y + " against " + o.x + ", expected an error against cpu_seconds to choose the best",
         {"", 0, 0, "--pareto"});
@@ -81,9 +81,13 @@ Result<std::vector<SweepVariant>> variants_to_chart(const ChartOptions& o, Node 
   return variants;
 }
 
+void stop_if_interrupted(std::stop_source& work) {
+  if (InterruptGuard::requested()) work.request_stop();
+}
+
 /// The true picture of the scene and, where bounces are swept, that of each number of them; variants are told theirs.
 Result<std::vector<Reference>> truths(const ChartOptions& o, const Node& scene, SceneCache& cache, WorkerPool& pool,
-                                      std::vector<SweepVariant>& variants, const std::stop_token& cancel) {
+                                      std::vector<SweepVariant>& variants, std::stop_source& cancel) {
   const FilmSettings film = read_film_settings(scene.child("film"));
   std::vector<Reference> truths;
   if (!o.reference.empty()) {
@@ -108,8 +112,12 @@ Result<std::vector<Reference>> truths(const ChartOptions& o, const Node& scene, 
                                 .height = film.height,
                                 .cpu_seconds = o.reference_seconds,
                                 .folder = reference_folder(),
-                                .progress = [&](double done) { line.update({done}); },
-                                .cancel = cancel});
+                                .progress =
+                                    [&](double done) {
+                                      stop_if_interrupted(cancel);
+                                      line.update({done});
+                                    },
+                                .cancel = cancel.get_token()});
     if (!made) return made.error();
     truths.push_back(std::move(*made));
   }
@@ -119,28 +127,20 @@ Result<std::vector<Reference>> truths(const ChartOptions& o, const Node& scene, 
 Result<void> write_outputs(const ChartOptions& o, const Sweep& sweep, const Chart& chart) {
   const ChartSize size{static_cast<float>(o.width), static_cast<float>(o.height), 14,
                        o.light ? Ground::Light : Ground::Dark};
-  for (const std::string& path : o.outputs) {
-    const std::string kind = lower_case_extension(path);
-    const auto done = kind == ".csv"   ? write_text_atomically(path, csv_of(sweep))
-                      : kind == ".svg" ? write_text_atomically(path, to_svg(lay_out(chart, size).drawing))
-                                       : write_chart_png(path, lay_out(chart, size).drawing);
-    if (!done) return done;
-  }
+  const Drawing drawing = lay_out(chart, size).drawing;
+  for (const std::string& path : o.outputs)
+    if (auto done = write_chart(path, drawing, sweep); !done) return done;
   return {};
 }
 
 std::string table_of(const Sweep& sweep) {
   std::vector<std::vector<std::string>> rows{{"variant", "samples", "CPU s", "RMSE", "median of tiles", "mean bias"}};
-  const auto text = [](const char* format, double v) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, format, v);
-    return std::string(buffer);
-  };
   for (const SweepRow& r : sweep.rows)
     if (r.last)
-      rows.push_back({sweep.variants[r.variant].name, std::to_string(r.samples_per_pixel), text("%.2f", r.cpu_seconds),
-                      text("%.3g", r.errors.rmse), text("%.3g", r.errors.median_of_tiles),
-                      text("%+.2f %%", 100 * r.errors.relative_mean_bias)});
+      rows.push_back({sweep.variants[r.variant].name, std::to_string(r.samples_per_pixel),
+                      formatted("%.2f", r.cpu_seconds), formatted("%.3g", r.errors.rmse),
+                      formatted("%.3g", r.errors.median_of_tiles),
+                      formatted("%+.2f %%", 100 * r.errors.relative_mean_bias)});
   return format_table(rows, "lrrrrr", 0);
 }
 
@@ -156,8 +156,7 @@ Result<std::string> choose_best(const ChartOptions& o, const Sweep& sweep, const
   std::snprintf(text, sizeof text, ": %s %.3g after %.2f CPU seconds and %d samples per pixel.\n", error.key.c_str(),
                 error.value(sweep, row), row.cpu_seconds, row.samples_per_pixel);
   if (!o.best.empty()) {
-    Node chosen = winner.description;
-    chosen.child("compare") = scene.child("compare");
+    const Node chosen = with_variants_of(winner.description, scene);
     if (auto done = write_scene_file(o.best, chosen); !done) return done.error();
   }
   return "Best: " + winner.name + text;
@@ -177,11 +176,9 @@ Result<ExitCode> run_chart(const ChartOptions& o) {
 
   const InterruptGuard guard;
   std::stop_source cancel;
-  const auto stop_if_interrupted = [&] {
-    if (InterruptGuard::requested()) cancel.request_stop();
-  };
   WorkerPool pool(o.threads);
-  auto references = truths(o, scene, cache, pool, *variants, cancel.get_token());
+  auto references = truths(o, scene, cache, pool, *variants, cancel);
+  if (InterruptGuard::requested()) return ExitCode::Interrupted;
   if (!references) return references.error();
   Result<Sweep> sweep = Sweep{};
   {
@@ -193,7 +190,7 @@ Result<ExitCode> run_chart(const ChartOptions& o) {
                        .max_samples = o.samples.value_or(1 << 24),
                        .progress =
                            [&](double done, const SweepVariant& v) {
-                             stop_if_interrupted();
+                             stop_if_interrupted(cancel);
                              line.update({done, v.name});
                            },
                        .cancel = cancel.get_token()});

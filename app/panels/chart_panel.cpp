@@ -6,13 +6,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/headless/chart_png.h"
+#include "app/headless/chart_file.h"
 #include "app/panels/chart_view.h"
 #include "app/ui/widgets.h"
 #include "renderer/analysis/chart_layout.h"
-#include "renderer/analysis/chart_svg.h"
-#include "renderer/core/atomic_file.h"
-#include "renderer/core/input_file.h"
 #include "renderer/experiments/sweep_chart.h"
 
 namespace brume {
@@ -64,11 +61,7 @@ bool ChartPanel::draw(Session& session, bool measured) {
   const auto best = front_ ? best_row(*sweep, *find_sweep_axis(error_), {}) : std::nullopt;
   if (best && ui::button("Apply best")) {
     const Node settings = sweep->variants[sweep->rows[*best].variant].description;
-    session.change([&](Node& d) {
-      const Node compare = d.child("compare");
-      d = settings;
-      d.child("compare") = compare;
-    });
+    session.change([&](Node& d) { d = with_variants_of(settings, d); });
     session.close_step();
   }
   if (best) {
@@ -86,12 +79,8 @@ bool ChartPanel::draw(Session& session, bool measured) {
 
 Result<void> ChartPanel::write(const Session& session, const std::string& path) const {
   const auto sweep = session.errors();
-  const std::string kind = lower_case_extension(path);
-  if (kind == ".csv") return write_text_atomically(path, csv_of(*sweep));
-  const Drawing drawing = lay_out(chart(*sweep, session, true), {width_, height_, font_, Ground::Dark}).drawing;
-  if (kind == ".svg") return write_text_atomically(path, to_svg(drawing));
-  if (kind == ".png") return write_chart_png(path, drawing);
-  return bad_input("found the extension \"" + kind + "\", expected .svg, .png or .csv", {path, 0, 0, ""});
+  return write_chart(path, lay_out(chart(*sweep, session, true), {width_, height_, font_, Ground::Dark}).drawing,
+                     *sweep);
 }
 
 }  // namespace brume

@@ -6,16 +6,20 @@ namespace brume {
 
 EditTarget::EditTarget(Session& session, std::optional<std::size_t> variant) : session_(session) {
   if (variant && *variant < session.description().child("compare").list("variants").size()) variant_ = variant;
+  resolve();
 }
 
-Node EditTarget::description() const {
-  if (variant_)
-    if (auto made = variant_of(session_.description(), *variant_)) {
-      // What is compared is still that of the scene.
-      made->description.child("compare") = session_.description().child("compare");
-      return std::move(made->description);
-    }
-  return session_.description();
+void EditTarget::resolve() {
+  resolved_.reset();
+  if (!variant_) return;
+  // What is compared is still that of the scene.
+  if (auto made = variant_of(session_.description(), *variant_))
+    resolved_ = with_variants_of(std::move(made->description), session_.description());
+}
+
+void EditTarget::change(const std::function<void(Node&)>& edit) {
+  session_.change(edit);
+  resolve();
 }
 
 std::string EditTarget::path_of(const NodePath& object, const std::string& key) const {
@@ -34,13 +38,13 @@ bool EditTarget::is_set(const NodePath& object, const std::string& key) const {
   return std::any_of(settings.begin(), settings.end(), [&](const Setting& s) { return s.path == path; });
 }
 
-void EditTarget::set(const NodePath& object, const Param& param, const Value& value) const {
+void EditTarget::set(const NodePath& object, const Param& param, const Value& value) {
   if (goes_to_variant(object, param.key)) {
     const std::string path = path_of(object, param.key);
-    session_.change([&](Node& d) { set_in_variant(d, *variant_, path, format_value(value)); });
+    change([&](Node& d) { set_in_variant(d, *variant_, path, format_value(value)); });
     return;
   }
-  session_.change([&](Node& d) {
+  change([&](Node& d) {
     const std::string before = object.to_text(d);
     // Refused values (a widget cannot know every rule) leave the description as it was.
     if (Node* n = object.find(d)) static_cast<void>(n->set(param.key, value).ok());
@@ -48,24 +52,24 @@ void EditTarget::set(const NodePath& object, const Param& param, const Value& va
   });
 }
 
-void EditTarget::set_kind(const NodePath& object, const Family& family, const ParamTable& kind) const {
+void EditTarget::set_kind(const NodePath& object, const Family& family, const ParamTable& kind) {
   if (goes_to_variant(object, family.type_key)) {
     const std::string path = path_of(object, family.type_key);
-    session_.change([&](Node& d) {
+    change([&](Node& d) {
       set_in_variant(d, *variant_, path, kind.key);
       drop_refused_settings(d, *variant_);
     });
     return;
   }
-  session_.change([&](Node& d) {
+  change([&](Node& d) {
     if (Node* n = object.find(d)) *n = n->converted_to(kind);
   });
 }
 
-void EditTarget::reset(const NodePath& object, const Param& param) const {
+void EditTarget::reset(const NodePath& object, const Param& param) {
   if (!goes_to_variant(object, param.key)) return set(object, param, param.default_value);
   const std::string path = path_of(object, param.key);
-  session_.change([&](Node& d) { unset_in_variant(d, *variant_, path); });
+  change([&](Node& d) { unset_in_variant(d, *variant_, path); });
 }
 
 }  // namespace brume

@@ -16,8 +16,8 @@ class EditTarget {
   EditTarget(Session& session, std::optional<std::size_t> variant);
 
   Session& session() const { return session_; }
-  /// With the variant's settings; new after every edit.
-  Node description() const;
+  /// With the variant's settings; another one after every edit.
+  const Node& description() const { return resolved_ ? *resolved_ : session_.description(); }
   /// The parameter's path as settings name it: "render.step_size".
   std::string path_of(const NodePath& object, const std::string& key) const;
   /// The edit of this parameter would become a setting of the variant.
@@ -25,14 +25,18 @@ class EditTarget {
   /// The variant has a setting of its own.
   bool is_set(const NodePath& object, const std::string& key) const;
 
-  void set(const NodePath& object, const Param& param, const Value& value) const;
-  void set_kind(const NodePath& object, const Family& family, const ParamTable& kind) const;
+  void set(const NodePath& object, const Param& param, const Value& value);
+  void set_kind(const NodePath& object, const Family& family, const ParamTable& kind);
   /// The default, or as in the scene again.
-  void reset(const NodePath& object, const Param& param) const;
+  void reset(const NodePath& object, const Param& param);
 
  private:
+  void change(const std::function<void(Node&)>& edit);
+  void resolve();
+
   Session& session_;
   std::optional<std::size_t> variant_;
+  std::optional<Node> resolved_;  // the variant's description; none: the scene's
 };
 
 }  // namespace brume

@@ -40,7 +40,7 @@ std::string label_of_choice(const Family& family) {
   return label;
 }
 
-void draw_kind(const EditTarget& target, const NodePath& path, const Family& family, const Node& node) {
+void draw_kind(EditTarget& target, const NodePath& path, const Family& family, const Node& node) {
   if (family.tables.size() < 2) return;
   std::vector<std::string> labels;
   int index = 0;
@@ -60,16 +60,16 @@ void draw_kind(const EditTarget& target, const NodePath& path, const Family& fam
   static_cast<void>(row.finish());
 }
 
-void draw_node(const EditTarget& target, const NodePath& path, const Family* family, std::optional<FileWish>& browse) {
-  Node description = target.description();
-  const Node* node = path.find(description);
+void draw_node(EditTarget& target, const NodePath& path, const Family* family, std::optional<FileWish>& browse) {
+  const Node* node = path.find(target.description());
   if (!node) return;
   if (family) draw_kind(target, path, *family, *node);
+  node = path.find(target.description());
+  if (!node) return;
   // The table outlives the node, which every edit replaces.
   const ParamTable& table = node->table();
   for (const Param& p : table.params) {
-    description = target.description();
-    node = path.find(description);
+    node = path.find(target.description());
     if (!node || &node->table() != &table) return;
     const ParamEdit edit = param_row(p, node->value(p.key), row_context(target, path, *node, p));
     if (edit.reset)
@@ -99,7 +99,7 @@ const Family* family_of(const Node& root, const NodePath& path) {
 
 }  // namespace
 
-std::optional<FileWish> draw_inspector(const EditTarget& target, const NodePath& selected) {
+std::optional<FileWish> draw_inspector(EditTarget& target, const NodePath& selected) {
   std::optional<FileWish> browse;
   const Node& scene = target.session().description();
   const Node* node = selected.find(scene);

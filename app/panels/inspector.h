@@ -13,6 +13,6 @@ struct FileWish {
 
 /// Draws every parameter of the object and of the objects inside it, from their tables; edits go to the target.
 /// @return the file that the user wants to choose, if any
-std::optional<FileWish> draw_inspector(const EditTarget& target, const NodePath& selected);
+std::optional<FileWish> draw_inspector(EditTarget& target, const NodePath& selected);
 
 }  // namespace brume

@@ -122,16 +122,15 @@ void MainWindow::ask_export_chart() {
 
 void MainWindow::ask_file(const FileWish& wish) {
   const auto variant = edited_variant_;
-  const Node description = EditTarget(session_, variant).description();
-  const Node* node = wish.object.find(description);
+  const EditTarget target(session_, variant);
+  const Node* node = wish.object.find(target.description());
   const bool picture = wish.key == "reference";
   dialog_.open({picture ? "Choose reference" : "Choose grid file",
                 picture ? std::vector<std::string>{".exr"} : std::vector<std::string>{".vdb", ".nvdb"}, false,
                 node ? node->text(wish.key) : "", [this, wish, variant](const std::string& path) {
-                  const EditTarget target(session_, variant);
-                  const Node edited = target.description();
-                  const Node* n = wish.object.find(edited);
-                  if (const Param* p = n ? n->table().find(wish.key) : nullptr) target.set(wish.object, *p, path);
+                  EditTarget edited(session_, variant);
+                  const Node* n = wish.object.find(edited.description());
+                  if (const Param* p = n ? n->table().find(wish.key) : nullptr) edited.set(wish.object, *p, path);
                   session_.close_step();
                 }});
 }
@@ -174,7 +173,7 @@ void MainWindow::handle_keys() {
     show_help_ = false;
     session_.cancel_activity();
   }
-  handle_view_keys();
+  controls_.handle_keys(session_, edited_variant_);
   const auto expose = [&](double stops) {
     session_.change([&](Node& d) {
       Node& film = d.child("film");
@@ -184,35 +183,6 @@ void MainWindow::handle_keys() {
   };
   if (ui::shortcut(Key::E, {}, true)) expose(0.5);
   if (ui::shortcut(Key::E, {.shift = true}, true)) expose(-0.5);
-}
-
-void MainWindow::handle_view_keys() {
-  using ui::Key;
-  if (ui::shortcut(Key::S)) view_.mode = ViewMode::Tiles;
-  if (ui::shortcut(Key::W)) view_.mode = ViewMode::Wipe;
-  if (ui::shortcut(Key::D)) view_.mode = ViewMode::Difference, view_.against_truth = false;
-  if (ui::shortcut(Key::D, {.shift = true})) view_.mode = ViewMode::Difference, view_.against_truth = true;
-  if (ui::shortcut(Key::Z)) view_.zoom = 1;
-  if (ui::shortcut(Key::V)) edited_variant_ = duplicate_as_variant(session_, edited_variant_);
-  // A tap shows a variant; a key that is held shows it until it is let go.
-  const std::size_t count = session_.shown().size();
-  for (std::size_t i = 0; count > 1 && i < count; ++i) {
-    const auto key = static_cast<Key>(static_cast<int>(Key::Num1) + static_cast<int>(i));
-    if (!ui::shortcut(key)) continue;
-    // The second of two that are held goes back to what there was before the first.
-    flipped_ = {key, flipped_.key != Key{} ? flipped_.before : view_, ImGui::GetTime()};
-    view_.mode = ViewMode::Single;
-    view_.shown = i;
-  }
-  constexpr double kTap = 0.35;  // seconds
-  if (flipped_.key != Key{} && !ui::key_held(flipped_.key)) {
-    if (ImGui::GetTime() - flipped_.since > kTap) {
-      view_.mode = flipped_.before.mode;
-      view_.shown = flipped_.before.shown;
-      view_.other = flipped_.before.other;
-    }
-    flipped_.key = Key{};
-  }
 }
 
 // --- Drawing
@@ -242,43 +212,7 @@ void MainWindow::draw_menu() {
     if (ui::menu_item("Restart", "R")) session_.restart();
     ui::end_menu();
   }
-  if (ui::menu("Compare")) {
-    const auto mode = [&](const char* label, const char* keys, ViewMode m) {
-      if (ui::menu_item(label, keys, view_.mode == m, session_.shown().size() > 1)) view_.mode = m;
-    };
-    if (ui::menu_item("Duplicate as variant", "V", false,
-                      session_.description().child("compare").list("variants").size() < kMaxVariants))
-      edited_variant_ = duplicate_as_variant(session_, edited_variant_);
-    ImGui::Separator();
-    mode("Side by side", "S", ViewMode::Tiles);
-    mode("Single", "1-4", ViewMode::Single);
-    mode("Wipe", "W", ViewMode::Wipe);
-    const bool differs = view_.mode == ViewMode::Difference;
-    if (ui::menu_item("Difference", "D", differs && !view_.against_truth, session_.shown().size() > 1))
-      view_.mode = ViewMode::Difference, view_.against_truth = false;
-    if (ui::menu_item("Difference from the reference", "Shift+D", differs && view_.against_truth))
-      view_.mode = ViewMode::Difference, view_.against_truth = true;
-    ImGui::Separator();
-    if (ui::menu_item("Chart", "C", show_chart_)) show_chart_ = !show_chart_;
-    ImGui::Separator();
-    const auto difference = [&](const char* label, DifferenceKind kind) {
-      if (ui::menu_item(label, "", view_.difference == kind)) view_.difference = kind;
-    };
-    difference("Signed", DifferenceKind::Signed);
-    difference("Absolute", DifferenceKind::Absolute);
-    difference("Relative", DifferenceKind::Relative);
-    difference("Squared", DifferenceKind::Squared);
-    ImGui::Separator();
-    const auto pick = [&](const char* label, std::size_t& which) {
-      if (!ui::menu(label)) return;
-      for (std::size_t i = 0; i < session_.shown().size(); ++i)
-        if (ui::menu_item(session_.shown()[i].variant.name.c_str(), "", which == i)) which = i;
-      ui::end_menu();
-    };
-    pick("Left, or what is judged", view_.shown);
-    pick("Right, or what it is judged by", view_.other);
-    ui::end_menu();
-  }
+  controls_.draw_menu(session_, edited_variant_, show_chart_);
   if (ui::menu("Help")) {
     if (ui::menu_item("Keys", "?", show_help_)) show_help_ = !show_help_;
     ui::end_menu();
@@ -295,7 +229,7 @@ void MainWindow::draw_panels() {
   const float left = show_panels_ ? std::floor(15 * em) : 0, right = show_panels_ ? std::floor(24 * em) : 0;
   const float status = show_panels_ ? std::floor(2 * em) : 0, log = show_log_ && show_panels_ ? std::floor(9 * em) : 0;
   const float chart = show_chart_ && show_panels_ ? std::floor(22 * em) : 0;
-  session_.want_truth(chart > 0 || (view_.mode == ViewMode::Difference && view_.against_truth));
+  session_.want_truth(chart > 0 || (controls_.view().mode == ViewMode::Difference && controls_.view().against_truth));
   const float height = io.DisplaySize.y - top - status;
   const auto panel = [&](const char* name, float x, float y, float w, float h, ImGuiWindowFlags flags = 0) {
     ImGui::SetNextWindowPos({x, y});
@@ -329,17 +263,16 @@ void MainWindow::draw_panels() {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   if (panel("View", left, top, io.DisplaySize.x - left - right, height - log - chart,
             ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
-    viewport_.draw(session_, view_, options_.measured);
+    viewport_.draw(session_, controls_.view(), options_.measured);
   ui::end_window();
   ImGui::PopStyleVar();
 }
 
 void MainWindow::draw_inspected() {
-  const EditTarget target(session_, edited_variant_);
+  EditTarget target(session_, edited_variant_);
   const auto variants = session_.description().child("compare").list("variants");
   if (edited_variant_ && *edited_variant_ < variants.size() && selected_ != NodePath().child("compare")) {
-    const std::string& name = variants[*edited_variant_].text("name");
-    ImGui::TextDisabled("In variant %s:", (name.empty() ? variant_letter(*edited_variant_) : name).c_str());
+    ImGui::TextDisabled("In variant %s:", variant_name(variants[*edited_variant_], *edited_variant_).c_str());
     ui::tooltip_on_hover("Edits become settings of this variant. Click its name in the list to edit the scene again.");
     ImGui::SameLine();
   }

@@ -5,10 +5,9 @@
 #include "app/panels/file_dialog.h"
 #include "app/panels/inspector.h"
 #include "app/panels/node_path.h"
-#include "app/panels/view_state.h"
+#include "app/panels/view_controls.h"
 #include "app/panels/viewport.h"
 #include "app/session/session.h"
-#include "app/ui/keys.h"
 
 namespace brume {
 
@@ -42,7 +41,6 @@ class MainWindow {
   void draw_help();
   void draw_unsaved_question();
   void handle_keys();
-  void handle_view_keys();
   void ask_open();
   void ask_save_as();
   void ask_export();
@@ -62,12 +60,7 @@ class MainWindow {
   FileDialog dialog_;
   NodePath selected_;
   std::optional<std::size_t> edited_variant_;  // of the description's; none: the scene itself
-  ViewState view_;
-  struct {
-    ui::Key key;
-    ViewState before;
-    double since;
-  } flipped_ = {};  // while a number key is held
+  ViewControls controls_;
   bool show_panels_ = true, show_chart_ = false, show_log_ = false, show_help_ = false;
   bool may_quit_ = false;
   std::function<void()> after_question_;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "app/ui/formatted.h"
 #include "app/ui/theme.h"
 #include "renderer/analysis/chart.h"
 
@@ -24,12 +24,6 @@ void draw_line(float x, float y, const std::string& text, ImU32 color, ImU32 str
 }
 
 ImU32 plain_color() { return ImGui::GetColorU32(ImGuiCol_Text); }
-
-std::string formatted(const char* format, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 }  // namespace
 

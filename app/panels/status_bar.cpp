@@ -2,16 +2,11 @@
 
 #include <imgui.h>
 
+#include "app/ui/formatted.h"
 #include "app/ui/widgets.h"
 
 namespace brume {
 namespace {
-
-std::string formatted(const char* format, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 void item(const std::string& text, const std::string& help, bool alarm = false) {
   if (alarm)

@@ -20,10 +20,6 @@ void change_variants(Session& session, const std::function<void(std::vector<Node
   session.close_step();
 }
 
-std::string shown_name(const Node& variant, std::size_t index) {
-  return variant.text("name").empty() ? variant_letter(index) : variant.text("name");
-}
-
 /// Takes a parameter that was dragged here over into the variant, with the value that it has in the scene.
 void take_dragged(Session& session, std::size_t variant) {
   if (!ImGui::BeginDragDropTarget()) return;
@@ -64,7 +60,7 @@ void draw_settings(Session& session, std::size_t variant) {
 
 /// @return false when it was removed
 bool draw_variant(Session& session, std::size_t i, std::size_t shown_index, std::optional<std::size_t>& target) {
-  const std::string name = shown_name(variants(session)[i], i);
+  const std::string name = variant_name(variants(session)[i], i);
   const ui::Scope scope(name.c_str());
   bool enabled = variants(session)[i].flag("enabled");
   if (ui::checkbox("##on", enabled))

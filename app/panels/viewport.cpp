@@ -37,6 +37,11 @@ Viewport::Viewport(const Gl& gl) : difference_(gl) {
   for (std::size_t i = 0; i < kMaxVariants; ++i) pictures_.emplace_back(gl);
 }
 
+PictureTexture& Viewport::picture(const Session& session, std::size_t variant) {
+  pictures_[variant].show(session.picture(variant), display_settings(session.description().child("film")));
+  return pictures_[variant];
+}
+
 void Viewport::handle_mouse(Session& session, ViewState& view, const PictureArea& area) {
   const ImGuiIO& io = ImGui::GetIO();
   const double dx = io.MouseDelta.x, dy = io.MouseDelta.y;
@@ -69,7 +74,7 @@ void Viewport::handle_mouse(Session& session, ViewState& view, const PictureArea
 }
 
 void Viewport::draw_single(Session& session, ViewState& view, const PictureArea& area) {
-  pictures_[view.shown].draw(area, view);
+  picture(session, view.shown).draw(area, view);
   if (const auto p = session.picture(view.shown)) draw_pixel_values(p->image, area, view);
   if (session.shown().size() > 1) draw_variant_label(session, view.shown, area.min.x, area);
 }
@@ -90,7 +95,7 @@ void Viewport::draw_tiles(Session& session, ViewState& view, const Room& room, b
     ui::canvas(("picture " + session.shown()[index].variant.name).c_str(), {area.width(), area.height()});
     ImGui::PopID();
     handle_mouse(session, view, area);
-    pictures_[index].draw(area, view);
+    picture(session, index).draw(area, view);
     if (const auto p = session.picture(index)) draw_pixel_values(p->image, area, view);
     draw_variant_label(session, index, area.min.x, area);
     draw_variant_figures(session, index, area, measured);
@@ -103,8 +108,8 @@ void Viewport::draw_wipe(Session& session, ViewState& view, const PictureArea& a
   // Only within what is seen: a line beyond the edge could not be taken hold of again.
   if (dragging_line_) view.wipe = area.to_picture(view, {std::clamp(mouse.x, area.min.x, area.max.x), 0}).x;
   const float line = area.to_screen(view, {view.wipe, 0}).x;
-  pictures_[view.shown].draw(area, view, area.min.x, line);
-  pictures_[view.other].draw(area, view, line, area.max.x);
+  picture(session, view.shown).draw(area, view, area.min.x, line);
+  picture(session, view.other).draw(area, view, line, area.max.x);
   draw_variant_label(session, view.shown, area.min.x, area);
   draw_variant_label(session, view.other, std::max(line, area.min.x), area);
   if (line < area.min.x - 0.5f || line > area.max.x + 0.5f) return;  // at the edge, but for rounding, it is seen
@@ -149,9 +154,7 @@ void Viewport::draw(Session& session, ViewState& view, bool measured) {
   const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
   session.set_picture_size(static_cast<int>(whole.width() * pixels.x), static_cast<int>(whole.height() * pixels.y));
 
-  const DisplaySettings settings = display_settings(session.description().child("film"));
   const std::size_t n = session.shown().size();
-  for (std::size_t i = 0; i < n; ++i) pictures_[i].show(session.picture(i), settings);
   view.choose_among(n);
   view.clamp();
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) dragging_line_ = false;

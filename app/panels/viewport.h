@@ -20,6 +20,8 @@ class Viewport {
  private:
   struct Room;  // where pictures may be drawn
 
+  /// The picture of a variant as it is displayed, on the card.
+  PictureTexture& picture(const Session& session, std::size_t variant);
   void draw_single(Session& session, ViewState& view, const PictureArea& area);
   void draw_tiles(Session& session, ViewState& view, const Room& room, bool measured);
   void draw_wipe(Session& session, ViewState& view, const PictureArea& area);

@@ -31,8 +31,8 @@ Node empty_scene() { return Node(*scene_family().tables.front()); }
 struct Session::Wish {
   std::string open = {};  // path; empty: commit `description`
   std::optional<Node> description = {};
-  bool truth = false;         // a reference is wanted,
-  int width = 0, height = 0;  // of this size
+  std::optional<TruthKey> truth = {};  // a reference is wanted: what is known of it,
+  int width = 0, height = 0;           // and the size that it must have
 };
 
 struct Session::Outcome {
@@ -175,18 +175,15 @@ void Session::want_truth(bool wanted) {
 
 /// By the worker, unless it is busy: then what comes of that is followed by another look.
 void Session::find_truth_again() {
-  if (truth_.wanted() && idle() && !shown_.empty()) request({.description = description_});
+  // Where the description has a problem, the edit that mends it brings the truth too.
+  if (truth_.wanted() && idle() && !shown_.empty() && problem_.empty()) request({.description = description_});
 }
 
 void Session::follow_errors() {
   if (!truth_.wanted()) return;
-  const std::string& given = description_.child("compare").text("reference");
-  if (given != asked_reference_) {
-    asked_reference_ = given;
-    truth_.want(true);
-    live_.set_reference(nullptr);
-  }
-  const bool fits = truth_.width() == width_ && truth_.height() == height_;
+  const TruthKey& key = truth_.key();
+  const bool fits =
+      key.width == width_ && key.height == height_ && key.given == description_.child("compare").text("reference");
   if (!fits && width_ > 0) find_truth_again();
   if (truth_.see(picture(shown_.size()), description_.child("compare").number("reference_time"))) {
     live_.set_reference(truth_.reference());
@@ -243,7 +240,7 @@ bool Session::finished() const {
 }
 
 void Session::request(Wish wish) {
-  wish.truth = truth_.wanted();
+  if (truth_.wanted()) wish.truth = truth_.key();
   wish.width = width_, wish.height = height_;
   const std::lock_guard lock(mutex_);
   // A newer edit supersedes a commit under way, but an edit made while a file is being opened waits for nothing: the
@@ -303,8 +300,8 @@ Session::Outcome Session::fulfil(const Wish& wish, const std::stop_token& cancel
   }
   out.shown = last_committed_ = std::move(*committed);
   if (wish.truth && wish.width > 0)
-    out.truth =
-        truth_finder_.find(description, cache_, options_.reference_folder, wish.width, wish.height, ++commits_);
+    out.truth = truth_finder_.find(description, cache_, options_.reference_folder, wish.width, wish.height, ++commits_,
+                                   *wish.truth);
   return out;
 }
 
@@ -357,7 +354,9 @@ void Session::take(Outcome outcome) {
     for (const std::string& warning : s.scene->warnings)
       if (known.insert(warning).second) say(LogLevel::Warning, warning);
   shown_ = std::move(outcome.shown);
-  if (outcome.truth && truth_.take(std::move(*outcome.truth))) {
+  if (outcome.truth) {
+    truth_.take(std::move(*outcome.truth));
+    live_.follow({}, {});  // errors against another reference are others
     live_.set_reference(truth_.reference());
     if (!truth_.problem().empty()) say(LogLevel::Error, truth_.problem());
   }

@@ -158,7 +158,6 @@ class Session {
   std::map<std::string, std::vector<GridInfo>> grid_infos_;
 
   Truth truth_;
-  std::string asked_reference_;  // the picture that the description named when truth_ was asked for
 
   SceneCache cache_;
   LiveSweep live_;

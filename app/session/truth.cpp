@@ -2,26 +2,28 @@
 
 namespace brume {
 
-FoundTruth TruthFinder::find(const Node& description, SceneCache& cache, const std::string& folder, int width,
-                             int height, std::uint64_t generation) {
-  FoundTruth found{.scene = nullptr, .path = "", .kept = {}, .width = width, .height = height, .problem = ""};
-  if (const std::string& given = description.child("compare").text("reference"); !given.empty()) {
-    if (auto loaded = load_reference(given, width, height))
+std::optional<FoundTruth> TruthFinder::find(const Node& description, SceneCache& cache, const std::string& folder,
+                                            int width, int height, std::uint64_t generation, const TruthKey& known) {
+  FoundTruth found{.key = {description.child("compare").text("reference"), nullptr, width, height}};
+  if (!found.key.given.empty()) {
+    if (found.key == known) return std::nullopt;
+    if (auto loaded = load_reference(found.key.given, width, height))
       found.kept = std::move(*loaded);
     else
       found.problem = loaded.error().to_string();
     return found;
   }
   Node truth = reference_description(description);
-  found.path = reference_path(folder, truth, width, height);
   if (!last_ || *last_ != truth) {
     const auto scene = commit(truth, cache, {.generation = generation});
-    last_ = std::move(truth);
     // Where the scene itself could be committed, this is a scene that has no unbiased picture.
     last_scene_ = scene ? *scene : nullptr;
     if (!scene) found.problem = scene.error().to_string();
+    last_ = std::move(truth);
   }
-  found.scene = last_scene_;
+  found.key.scene = last_scene_;
+  if (last_scene_ && found.key == known) return std::nullopt;
+  found.path = reference_path(folder, *last_, width, height);
   if (!found.path.empty()) found.kept = read_reference(found.path, width, height);
   return found;
 }
@@ -33,29 +35,26 @@ void Truth::want(bool wanted) {
   seen_.reset(), reference_.reset();
 }
 
-bool Truth::take(FoundTruth found) {
-  const bool same =
-      found.scene && found.scene == found_.scene && found.width == found_.width && found.height == found_.height;
-  if (same || !wanted_) return false;
+void Truth::take(FoundTruth found) {
+  if (!wanted_) return;
   want(true);
   found_ = std::move(found);
   if (!found_.kept.image.empty()) reference_ = std::make_shared<const Reference>(found_.kept);
-  return true;
 }
 
 std::optional<Job> Truth::job() const {
-  if (!wanted_ || done_ || !found_.scene) return std::nullopt;
-  return Job{.scene = found_.scene,
-             .width = found_.width,
-             .height = found_.height,
+  if (!wanted_ || done_ || !found_.key.scene) return std::nullopt;
+  return Job{.scene = found_.key.scene,
+             .width = found_.key.width,
+             .height = found_.key.height,
              .first_sample = static_cast<std::uint32_t>(found_.kept.samples_per_pixel)};
 }
 
 bool Truth::see(const std::shared_ptr<const Picture>& picture, double time) {
   if (!job()) return false;
   if (found_.kept.cpu_seconds >= time) return done_ = true;
-  const bool of_it = picture && picture->divisor == 1 && picture->generation == found_.scene->generation &&
-                     picture->width == found_.width && picture->height == found_.height;
+  const bool of_it = picture && picture->divisor == 1 && picture->generation == found_.key.scene->generation &&
+                     picture->width == found_.key.width && picture->height == found_.key.height;
   // Of fewer than two samples the variance is unknown.
   if (!of_it || picture == seen_ || picture->statistics.samples_per_pixel < 2) return false;
   const RenderStatistics& s = picture->statistics;

@@ -14,36 +14,40 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 const std::vector<SweepAxis>& sweep_axes() {
+  using Kind = SweepAxis::Kind;
   static const std::vector<SweepAxis> axes{
-      {"cpu_seconds", "CPU time (s)", [](const Sweep&, const SweepRow& r) { return r.cpu_seconds; }, false},
+      {"cpu_seconds", "CPU time (s)", [](const Sweep&, const SweepRow& r) { return r.cpu_seconds; }, Kind::Cost},
       {"step_size", "step size (world units)",
-       [](const Sweep& s, const SweepRow& r) { return static_cast<double>(scene_of(s, r).step_size); }, true},
+       [](const Sweep& s, const SweepRow& r) { return static_cast<double>(scene_of(s, r).step_size); }, Kind::Setting},
       {"steps", "steps across the scene",
        [](const Sweep& s, const SweepRow& r) {
          return scene_of(s, r).bounds.empty()
                     ? kNone
                     : scene_of(s, r).bounds.diagonal() / static_cast<double>(scene_of(s, r).step_size);
        },
-       true},
+       Kind::Setting},
       {"bounces", "bounces",
-       [](const Sweep& s, const SweepRow& r) { return static_cast<double>(scene_of(s, r).render.bounces); }, true},
+       [](const Sweep& s, const SweepRow& r) { return static_cast<double>(scene_of(s, r).render.bounces); },
+       Kind::Setting},
       {"light_samples", "light samples",
-       [](const Sweep& s, const SweepRow& r) { return static_cast<double>(scene_of(s, r).light_samples); }, true},
-      {"rmse", "RMSE (radiance)", [](const Sweep&, const SweepRow& r) { return r.errors.rmse; }, false},
+       [](const Sweep& s, const SweepRow& r) { return static_cast<double>(scene_of(s, r).light_samples); },
+       Kind::Setting},
+      {"rmse", "RMSE (radiance)", [](const Sweep&, const SweepRow& r) { return r.errors.rmse; }, Kind::Error},
       {"rmse_net", "net RMSE (radiance)",
        [](const Sweep&, const SweepRow& r) {
          return std::sqrt(std::max(r.errors.rmse * r.errors.rmse - r.reference_variance, 0.0));
        },
-       false},
-      {"relative_mse", "relative MSE", [](const Sweep&, const SweepRow& r) { return r.errors.relative_mse; }, false},
+       Kind::Error},
+      {"relative_mse", "relative MSE", [](const Sweep&, const SweepRow& r) { return r.errors.relative_mse; },
+       Kind::Error},
       {"mean_bias", "|mean bias| (radiance)",
-       [](const Sweep&, const SweepRow& r) { return std::abs(r.errors.mean_bias); }, false},
+       [](const Sweep&, const SweepRow& r) { return std::abs(r.errors.mean_bias); }, Kind::Error},
       {"relative_mean_bias", "|mean bias| / mean",
-       [](const Sweep&, const SweepRow& r) { return std::abs(r.errors.relative_mean_bias); }, false},
+       [](const Sweep&, const SweepRow& r) { return std::abs(r.errors.relative_mean_bias); }, Kind::Error},
       {"median_of_tiles", "median of tiles (radiance)",
-       [](const Sweep&, const SweepRow& r) { return r.errors.median_of_tiles; }, false},
+       [](const Sweep&, const SweepRow& r) { return r.errors.median_of_tiles; }, Kind::Error},
       {"seconds_per_sample", "CPU time per sample (s)",
-       [](const Sweep&, const SweepRow& r) { return r.cpu_seconds / r.samples_per_pixel; }, false}};
+       [](const Sweep&, const SweepRow& r) { return r.cpu_seconds / r.samples_per_pixel; }, Kind::Cost}};
   return axes;
 }
 
@@ -73,10 +77,6 @@ std::optional<double> fitted_exponent(const std::vector<std::array<double, 2>>& 
 
 namespace {
 
-bool is_error(const SweepAxis& axis) {
-  return axis.key != "seconds_per_sample" && axis.key != "cpu_seconds" && !axis.settled;
-}
-
 /// "ray_march: n^1.98", of the upper half of the points: below it, what does not depend on the steps counts most.
 void name_exponent(Series& series) {
   const auto middle = series.points.begin() + static_cast<std::ptrdiff_t>(series.points.size() / 2);
@@ -99,6 +99,7 @@ std::optional<std::array<double, 2>> first_point(const Chart& chart) {
 }  // namespace
 
 Chart chart_of(const Sweep& sweep, const SweepAxis& x, const SweepAxis& y, const std::string& title) {
+  const bool by_setting = x.kind == SweepAxis::Kind::Setting;
   Chart chart;
   chart.title = title;
   chart.x.label = x.label, chart.y.label = y.label;
@@ -107,9 +108,9 @@ Chart chart_of(const Sweep& sweep, const SweepAxis& x, const SweepAxis& y, const
   std::vector<std::string> names;
   bool positive_x = true, positive_y = true;
   for (const SweepRow& row : sweep.rows) {
-    if (x.settled && !row.last) continue;
+    if (by_setting && !row.last) continue;
     const SweepVariant& variant = sweep.variants[row.variant];
-    const std::string& name = x.settled ? variant.series : variant.name;
+    const std::string& name = by_setting ? variant.series : variant.name;
     auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
       names.push_back(name);
@@ -123,12 +124,12 @@ Chart chart_of(const Sweep& sweep, const SweepAxis& x, const SweepAxis& y, const
     chart.series[static_cast<std::size_t>(found - names.begin())].points.push_back(point);
   }
   chart.x.logarithmic = positive_x && x.key != "bounces";
-  chart.y.logarithmic = positive_y || is_error(y);  // an error of exactly 0 has no place
-  if (x.settled)
+  chart.y.logarithmic = positive_y || y.kind == SweepAxis::Kind::Error;  // an error of exactly 0 has no place
+  if (by_setting)
     for (Series& s : chart.series) std::sort(s.points.begin(), s.points.end());
   if (x.key == "steps" && y.key == "seconds_per_sample")
     for (Series& s : chart.series) name_exponent(s);
-  if (x.key == "cpu_seconds" && is_error(y))
+  if (x.key == "cpu_seconds" && y.kind == SweepAxis::Kind::Error)
     if (const auto from = first_point(chart)) {
       const bool squared = y.key == "relative_mse";
       chart.guides.push_back({squared ? "t^-1" : "t^-1/2", squared ? -1.0 : -0.5, *from});

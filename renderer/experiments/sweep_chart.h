@@ -14,7 +14,11 @@ struct SweepAxis {
   std::string key;    ///< "cpu_seconds"
   std::string label;  ///< "CPU time (s)"
   double (*value)(const Sweep& sweep, const SweepRow& row);
-  bool settled;  ///< one value for each variant: of its last row
+  enum class Kind {
+    Setting,  ///< of the variant: one value for all its rows
+    Cost,
+    Error,
+  } kind;
 };
 
 /// cpu_seconds, step_size, steps (across the scene), bounces, light_samples; rmse, rmse_net (what is left of it when
@@ -24,9 +28,10 @@ const std::vector<SweepAxis>& sweep_axes();
 const SweepAxis* find_sweep_axis(const std::string& key);
 std::vector<std::string> sweep_axis_keys();
 
-/// y against x, both logarithmic where all values are above 0: a line for each variant along the time, or, where x is
-/// settled, for each series along its variants. Errors have a guide of slope -1/2 against time and the reference's own
-/// error as a level; costs against steps have the exponent fitted to the upper half of each line in its name.
+/// y against x, both logarithmic where all values are above 0: a line for each variant along its rows, or, where x is
+/// a setting, for each series along its variants, which have their last rows. Errors have a guide of slope -1/2 against
+/// time and the reference's own error as a level; costs against steps have the exponent fitted to the upper half of
+/// each line in its name.
 Chart chart_of(const Sweep& sweep, const SweepAxis& x, const SweepAxis& y, const std::string& title);
 
 /// Least-squares slope of log y over log x; nothing for fewer than two points above 0 at different x.

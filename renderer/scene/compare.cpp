@@ -37,7 +37,10 @@ const Family& compare_family() {
   return family;
 }
 
-std::string variant_letter(std::size_t index) { return std::string(1, static_cast<char>('A' + index % 26)); }
+std::string variant_name(const Node& variant, std::size_t index) {
+  const std::string& name = variant.text("name");
+  return name.empty() ? std::string(1, static_cast<char>('A' + index % 26)) : name;
+}
 
 bool is_common(const std::string& path) {
   for (const char* part : {"camera.", "film.", "compare."})
@@ -63,10 +66,15 @@ Node without_variants(Node description) {
   return description;
 }
 
+Node with_variants_of(Node settings, const Node& scene) {
+  settings.child("compare") = scene.child("compare");
+  return settings;
+}
+
 Result<Variant> variant_of(const Node& description, std::size_t variant) {
   const Node& node = description.child("compare").list("variants")[variant];
   const std::string& name = node.text("name");
-  Variant made{name.empty() ? variant_letter(variant) : name, without_variants(description)};
+  Variant made{variant_name(node, variant), without_variants(description)};
   for (const Setting& setting : node.settings("set"))
     if (const auto done = apply(setting, made.description); !done)
       return under("compare.variants." + (name.empty() ? std::to_string(variant) : name) + ".set", done.error());

@@ -32,11 +32,14 @@ Result<Variant> variant_of(const Node& description, std::size_t variant);
 /// The scene itself, with nothing to compare.
 Node without_variants(Node description);
 
+/// The settings of one scene, a variant perhaps, and what another one compares.
+Node with_variants_of(Node settings, const Node& scene);
+
 /// Whether a parameter is one that variants have in common.
 bool is_common(const std::string& path);
 
-/// The letter by which a variant goes that has no name: "A" for the first.
-std::string variant_letter(std::size_t index);
+/// What a variant of a description is called: its name or, where it has none, its letter, "A" for the first.
+std::string variant_name(const Node& variant, std::size_t index);
 
 /// Sets a parameter in a variant of `description` to what a person may type; other settings keep their order.
 void set_in_variant(Node& description, std::size_t variant, const std::string& path, const std::string& value);

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <sstream>
+#include <thread>
 
 #include "renderer/film/image_io.h"
 #include "tests/cli/program.h"
@@ -113,6 +114,17 @@ TEST_F(ChartCommand, TakesAnyPictureAsReferenceAndRefusesOneThatDoesNotFit) {
   hole.at(1, 2).r = std::numeric_limits<float>::infinity();
   ASSERT_TRUE(write_exr(path("hole.exr"), hole).ok());
   expect_refused({"chart", "scene.json", "--reference", "hole.exr", "-o", "a.csv"}, "(1, 2)");
+}
+
+TEST_F(ChartCommand, CtrlCWhileTheReferenceIsMadeEndsItAndKeepsWhatThereIs) {
+  const Child child({"chart", "scene.json", "-o", "a.svg", "--reference-time", "3600"}, path("."));
+  for (int i = 0; i < 3000 && !child.handles(SIGINT); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  kill(child.pid(), SIGINT);
+  const Outcome o = child.wait();
+  EXPECT_EQ(o.exit_code, 130) << o.err;
+  EXPECT_FALSE(std::filesystem::exists(path("a.svg")));
+  EXPECT_FALSE(std::filesystem::is_empty(path("cache/brume/references")));
 }
 
 TEST_F(ChartCommand, RefusesWhatItDoesNotKnow) {

@@ -1,4 +1,4 @@
-#include "app/headless/chart_png.h"
+#include "app/headless/chart_file.h"
 
 #include <imgui.h>
 
@@ -8,6 +8,10 @@
 #include "app/panels/chart_view.h"
 #include "app/ui/stage.h"
 #include "app/ui/ui_fonts.h"
+#include "renderer/analysis/chart_svg.h"
+#include "renderer/core/atomic_file.h"
+#include "renderer/core/input_file.h"
+#include "renderer/experiments/sweep_chart.h"
 #include "renderer/film/image_io.h"
 
 namespace brume {
@@ -25,8 +29,6 @@ Result<Image8> draw(const Drawing& drawing) {
   return image;
 }
 
-}  // namespace
-
 Result<void> write_chart_png(const std::string& path, const Drawing& drawing) {
   // An OpenGL context is current in one thread: that of a window must stay it. ImGui's is the same in all.
   ImGuiContext* const before = ImGui::GetCurrentContext();
@@ -35,6 +37,16 @@ Result<void> write_chart_png(const std::string& path, const Drawing& drawing) {
   ImGui::SetCurrentContext(before);
   if (!image) return image.error();
   return write_png(path, *image);
+}
+
+}  // namespace
+
+Result<void> write_chart(const std::string& path, const Drawing& drawing, const Sweep& sweep) {
+  const std::string kind = lower_case_extension(path);
+  if (kind == ".svg") return write_text_atomically(path, to_svg(drawing));
+  if (kind == ".png") return write_chart_png(path, drawing);
+  if (kind == ".csv") return write_text_atomically(path, csv_of(sweep));
+  return bad_input("found the extension \"" + kind + "\", expected .svg, .png or .csv", {path, 0, 0, ""});
 }
 
 }  // namespace brume
