@@ -3,9 +3,9 @@
 #include "renderer/integrators/marched_path.h"
 #include "renderer/integrators/path.h"
 #include "renderer/march/density_sampling.h"
-#include "renderer/march/equiangular.h"
+#include "renderer/march/equiangular_sampling.h"
 #include "renderer/march/mis.h"
-#include "renderer/march/product_sampling.h"
+#include "renderer/march/tracking.h"
 
 namespace brume {
 namespace {
@@ -17,34 +17,45 @@ template <int C> struct LightSampling {
   int bounce;
   SampleContext& context;
   MarchedShadows<C>& shadows;
-  DensitySampling<C> density{record};
+  DensitySampling<C> density{record, PlaceInSegment::LookedUp};
 
   /// sigma_s T L_scattered at a point of the ray, whose shadow is left to be seen: the integrand of single scattering
   /// over the densities of the light direction, times `factor`, which holds what divides it.
-  void carry(const Light& light, const IncomingLight& in, const RayPoint<C>& at, float factor,
-             const LightNumbers& numbers, int k) const {
+  void carry(const Light& light, const IncomingLight& in, const RayPoint<C>& at, DistanceTechnique drawn_by,
+             float factor, const LightNumbers& numbers, int k) const {
     Color carried = beta * in.scattered * factor;
     for (int c = 0; c < 3; ++c) {
       const int channel = C == 1 ? 0 : c;
       carried[c] *= at.sigma_s[channel] * at.transmittance[channel];
     }
-    if (!is_black(carried)) shadows.add(light, {ray.at(at.t), in.wi, {0, in.distance}}, carried, numbers, k);
+    if (is_black(carried)) return;
+    context.note(bounce, ray.at(at.t), drawn_by, carried);
+    shadows.add(light, {ray.at(at.t), in.wi, {0, in.distance}}, carried, numbers, k);
   }
 
   PhaseMixture<C> phase_at(const RayPoint<C>& at) const {
-    return PhaseMixture<C>(context.scene, ray.direction, record, at.segment, context.arena);
+    return {context.scene, ray.direction, record, at.segment, context.arena};
   }
 
-  /// The part of the record that a point of the light can reach.
+  /// The same where the record knows another place of the segment only: looked up anew.
+  PhaseMixture<C> phase_between(RayPoint<C>& at) const {
+    const Scene& scene = context.scene;
+    const Collision<C> there =
+        collision_at<C>(scene.media, ray, at.t, scene.render.time, context.arena, context.statistics.march);
+    at.sigma_s = there.sigma_s;
+    return {scene, ray.direction, there.densities};
+  }
+
   Interval lit_part(const Light& light, const LightPoint& point) const {
-    return intersect(record.span(), light.lit_part(point, {ray.origin, ray.direction, record.span()}));
+    return brume::lit_part(record, ray, light, point);
   }
 
   /// One light sample at a distance that was drawn without regard to the point. A sample is a distance and a direction;
   /// in MIS equi-angular sampling might have drawn both.
   /// @param factor  one over the samples of this technique, on average over the passes
-  void at_distance(const RayPoint<C>& at, float pdf, const Light& light, const LightPoint& point, float factor,
-                   const LightNumbers& numbers, int k, bool combined) const {
+  void at_distance(const SampledPoint<C>& drawn, const Light& light, const LightPoint& point, float factor,
+                   const LightNumbers& numbers, int k, DistanceTechnique drawn_by, bool combined) const {
+    const auto& [at, pdf] = drawn;
     if (!(pdf > 0)) return;
     const ArenaScope scope(context.arena);
     const LightTechnique<C> technique(light, context, bounce, numbers.index(k));
@@ -53,10 +64,10 @@ template <int C> struct LightSampling {
     float weight = 1;
     if (combined) {
       const Interval lit = lit_part(light, in.point);
-      const float other = lit.empty() ? 0 : EquiangularSampling(ray, in.point.position, lit).pdf(at.t);
+      const float other = lit.empty() ? 0 : EquiangularSampling<C>(record, ray, in.point.position, lit).pdf(at);
       weight = mis_weight(context.scene.render.mis_heuristic, pdf * in.pdf_ratio, other);
     }
-    carry(light, in, at, factor * weight / pdf, numbers, k);
+    carry(light, in, at, drawn_by, factor * weight / pdf, numbers, k);
   }
 
   /// @param u  of the distance
@@ -65,15 +76,16 @@ template <int C> struct LightSampling {
     const Interval lit = lit_part(light, point);
     if (lit.empty()) return;
     const ArenaScope scope(context.arena);
-    const DistanceSample drawn = EquiangularSampling(ray, point.position, lit).sample(u);
-    if (!(drawn.pdf_t > 0)) return;
-    const RayPoint<C> at = evaluate(record, drawn.t);
+    const EquiangularSampling<C> equiangular(record, ray, point.position, lit);
+    auto [at, pdf] = equiangular.sample(u);
+    if (!(pdf > 0)) return;
     const LightTechnique<C> technique(light, context, bounce, numbers.index(k));
-    const IncomingLight in = technique.towards(point, ray.at(at.t), phase_at(at));
+    const PhaseMixture<C> phase = equiangular.is_between(at) ? phase_between(at) : phase_at(at);
+    const IncomingLight in = technique.towards(point, ray.at(at.t), phase);
     if (is_black(in.scattered)) return;
     const float weight =
-        combined ? mis_weight(context.scene.render.mis_heuristic, drawn.pdf_t, density.pdf(at) * in.pdf_ratio) : 1;
-    carry(light, in, at, factor * weight / drawn.pdf_t, numbers, k);
+        combined ? mis_weight(context.scene.render.mis_heuristic, pdf, density.pdf(at) * in.pdf_ratio) : 1;
+    carry(light, in, at, DistanceTechnique::Equiangular, factor * weight / pdf, numbers, k);
   }
 
   void by_product(const Light& light, const LightPivot& pivot, float weight, const LightNumbers& numbers) const {
@@ -83,22 +95,13 @@ template <int C> struct LightSampling {
     const int samples = numbers.count();
     const auto u = numbers.distances(Decision::DensityDistance);
     for (int k = 0; k < samples; ++k) {
-      const auto [at, pdf] = product.sample(u(k, samples));
-      at_distance(at, pdf, light, light.sample_point(numbers.point(k)), weight / static_cast<float>(samples), numbers,
-                  k, false);
+      at_distance(product.sample(u(k, samples)), light, light.sample_point(numbers.point(k)),
+                  weight / static_cast<float>(samples), numbers, k, DistanceTechnique::Product, false);
     }
   }
 
   ProductSampling<C> product_with(const Light& light, const LightPivot& pivot) const {
-    const Scene& scene = context.scene;
-    const LightPoint middle{LightPoint::Kind::Finite, pivot.position, {}, pivot.normal};
-    const bool has_one_lit_part = pivot.normal != Vec3() || pivot.radius == 0;
-    return {record,
-            ray,
-            pivot,
-            has_one_lit_part ? lit_part(light, middle) : record.span(),
-            scene.phases.size() == 1 ? scene.phases[0].get() : nullptr,
-            context.arena};
+    return product_sampling(record, ray, context.scene, light, pivot, context.arena);
   }
 
   /// What a light adds to the ray unless there are shadows, roughly.
@@ -146,8 +149,8 @@ template <int C> struct LightSampling {
     const int samples = numbers.count();
     const auto pivot = mode == DistanceSampling::Product ? light.pivot() : std::nullopt;
     if (pivot) return by_product(light, *pivot, weight, numbers);
-    // All points of a light are of one kind.
-    const bool distant = light.sample_point(numbers.point(0)).kind != LightPoint::Kind::Finite;
+    const LightPoint::Kind kind = light.sample_point(numbers.point(0)).kind;  // all points of a light are of one kind
+    const bool distant = kind != LightPoint::Kind::Finite;
     const bool combined = mode == DistanceSampling::Mis && !distant;
     int of_density = mode == DistanceSampling::Equiangular && !distant ? 0 : samples;
     if (combined) {
@@ -160,10 +163,12 @@ template <int C> struct LightSampling {
     const float share = (combined ? 2 : 1) * weight / static_cast<float>(samples);
     // Strata: as many as the technique has samples in this very pass, or they would not cover [0,1) just once.
     if (of_density > 0) {
+      const bool from_everywhere = kind == LightPoint::Kind::Environment;
+      const DensitySampling<C> places(record, from_everywhere ? PlaceInSegment::Drawn : PlaceInSegment::LookedUp);
       const auto u = numbers.distances(Decision::DensityDistance);
       for (int k = 0; k < of_density; ++k) {
-        const RayPoint<C> at = density.sample(u(k, of_density));
-        at_distance(at, density.pdf(at), light, light.sample_point(numbers.point(k)), share, numbers, k, combined);
+        at_distance(places.sample(u(k, of_density)), light, light.sample_point(numbers.point(k)), share, numbers, k,
+                    DistanceTechnique::Density, combined);
       }
     }
     const int about_light = samples - of_density;
@@ -180,6 +185,24 @@ template <int C> struct LightSampling {
 }  // namespace
 
 template <int C>
+Interval lit_part(const MarchRecord<C>& record, const Ray& ray, const Light& light, const LightPoint& point) {
+  return intersect(record.span(), light.lit_part(point, {ray.origin, ray.direction, record.span()}));
+}
+
+template <int C>
+ProductSampling<C> product_sampling(const MarchRecord<C>& record, const Ray& ray, const Scene& scene,
+                                    const Light& light, const LightPivot& pivot, Arena& arena) {
+  const LightPoint middle{LightPoint::Kind::Finite, pivot.position, {}, pivot.normal};
+  const bool has_one_lit_part = pivot.normal != Vec3() || pivot.radius == 0;
+  return {record,
+          ray,
+          pivot,
+          has_one_lit_part ? lit_part(record, ray, light, middle) : record.span(),
+          scene.phases.size() == 1 ? scene.phases[0].get() : nullptr,
+          arena};
+}
+
+template <int C>
 void direct_light(const MarchRecord<C>& record, const Ray& ray, Color beta, int bounce, int samples,
                   SampleContext& context, MarchedShadows<C>& shadows) {
   const LightSampling<C> sampling{record, ray, beta, bounce, context, shadows};
@@ -189,6 +212,12 @@ void direct_light(const MarchRecord<C>& record, const Ray& ray, Color beta, int 
   });
 }
 
+template Interval lit_part(const MarchRecord<1>&, const Ray&, const Light&, const LightPoint&);
+template Interval lit_part(const MarchRecord<3>&, const Ray&, const Light&, const LightPoint&);
+template ProductSampling<1> product_sampling(const MarchRecord<1>&, const Ray&, const Scene&, const Light&,
+                                             const LightPivot&, Arena&);
+template ProductSampling<3> product_sampling(const MarchRecord<3>&, const Ray&, const Scene&, const Light&,
+                                             const LightPivot&, Arena&);
 template void direct_light<1>(const MarchRecord<1>&, const Ray&, Color, int, int, SampleContext&, MarchedShadows<1>&);
 template void direct_light<3>(const MarchRecord<3>&, const Ray&, Color, int, int, SampleContext&, MarchedShadows<3>&);
 

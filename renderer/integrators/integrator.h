@@ -1,6 +1,8 @@
 // From a camera ray to its radiance.
 #pragma once
 
+#include <vector>
+
 #include "renderer/core/arena.h"
 #include "renderer/march/march_record.h"
 #include "renderer/sampling/sampler.h"
@@ -18,11 +20,22 @@ struct RayStatistics {
   RayStatistics& operator+=(const RayStatistics& other);
 };
 
+/// What has drawn the distance of a light sample.
+enum class DistanceTechnique { Density, Equiangular, Product, Other };
+
+/// A light sample on a camera ray.
+struct LightSampleNote {
+  Vec3 position;
+  DistanceTechnique technique;
+  float carried;  ///< luminance that it adds to the sample if nothing is in its shadow ray's way, W/(sr m^2)
+};
+
 /// What one camera ray met, for probes and the medium's diagnosis.
 struct RayDiagnostics {
   Color optical_depth;  ///< of the camera ray, per channel
   Color transmittance{1};
   int segments = 0;
+  std::vector<LightSampleNote> light_samples = {};
 };
 
 /// Everything that computing one sample may touch.
@@ -32,6 +45,10 @@ struct SampleContext {
   Arena& arena;
   RayStatistics& statistics;
   RayDiagnostics* diagnostics = nullptr;  ///< absent: nothing is written
+
+  void note(int bounce, Vec3 position, DistanceTechnique technique, Color carried) const {
+    if (diagnostics && bounce == 0) diagnostics->light_samples.push_back({position, technique, luminance(carried)});
+  }
 };
 
 /// An integrator has no state: the scene holds the settings. Any thread.

@@ -29,9 +29,8 @@ namespace {
 /// Goes on in the medium. @return false when it cannot
 template <int C>
 bool scatter_in_medium(const MarchRecord<C>& record, Ray& ray, Color& beta, int bounce, SampleContext& context) {
-  const DensitySampling<C> density(record);
-  const RayPoint<C> at = density.sample(context.sampler.u1(Decision::BounceDistance, bounce));
-  const float pdf = density.pdf(at);
+  const DensitySampling<C> density(record, PlaceInSegment::Drawn);
+  const auto [at, pdf] = density.sample(context.sampler.u1(Decision::BounceDistance, bounce));
   if (!(pdf > 0)) return false;
   const Vec3 x = ray.at(at.t);
   const PhaseMixture<C> phase(context.scene, ray.direction, record, at.segment, context.arena);

@@ -4,7 +4,7 @@
 #include "renderer/integrators/registry.h"
 #include "renderer/integrators/scatter_direction.h"
 #include "renderer/integrators/track.h"
-#include "renderer/march/equiangular.h"
+#include "renderer/march/equiangular_distribution.h"
 
 namespace brume {
 namespace {
@@ -38,7 +38,7 @@ template <int C> struct Leg {
   float equiangular_pdf(const Light& light, const LightPoint& point, float t, Interval inside) const {
     if (point.kind != LightPoint::Kind::Finite) return 0;
     const Interval lit = intersect(inside, light.lit_part(point, {ray.origin, ray.direction, inside}));
-    return lit.empty() ? 0 : EquiangularSampling(ray, point.position, lit).pdf(t);
+    return lit.empty() ? 0 : EquiangularDistribution(ray, point.position, lit).pdf(t);
   }
 
   /// Light samples at the real collision that tracking has come to.
@@ -57,8 +57,9 @@ template <int C> struct Leg {
                         if (is_black(in.scattered)) return;
                         const float mine = tracked * in.pdf_ratio;
                         const float other = mean_of(path.p) * equiangular_pdf(light, in.point, at.t, inside);
-                        shadows.add(light, {x, in.wi, {0, in.distance}},
-                                    value * in.scattered * (factor * mine / (mine + other)), numbers, k);
+                        const Color carried = value * in.scattered * (factor * mine / (mine + other));
+                        context.note(bounce, x, DistanceTechnique::Density, carried);
+                        shadows.add(light, {x, in.wi, {0, in.distance}}, carried, numbers, k);
                       });
     return shadows.light();
   }
@@ -76,7 +77,7 @@ template <int C> struct Leg {
           if (lit.empty()) return;
           const ArenaScope scope(context.arena);
           const DistanceSample drawn =
-              EquiangularSampling(ray, point.position, lit)
+              EquiangularDistribution(ray, point.position, lit)
                   .sample(numbers.distances(Decision::EquiangularDistance)(k, numbers.count()));
           if (!(drawn.pdf_t > 0)) return;
           const Collision<C> at = collision_at<C>(context.scene.media, ray, drawn.t, context.scene.render.time,
@@ -91,8 +92,9 @@ template <int C> struct Leg {
                                        Decision::EquiangularFlight, bounce, numbers.index(k), context);
           const float mine = mean_of(path.p) * drawn.pdf_t;
           const float other = tracked_pdf(n, at.sigma_t) * in.pdf_ratio;
-          const Color value = to_color(path.f * n * at.sigma_s) * in.scattered;
-          shadows.add(light, {x, in.wi, {0, in.distance}}, value * (factor / (mine + other)), numbers, k);
+          const Color carried = to_color(path.f * n * at.sigma_s) * in.scattered * (factor / (mine + other));
+          context.note(bounce, x, DistanceTechnique::Equiangular, carried);
+          shadows.add(light, {x, in.wi, {0, in.distance}}, carried, numbers, k);
         });
     return shadows.light();
   }

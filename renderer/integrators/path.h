@@ -75,6 +75,7 @@ void light_sample_at(Vec3 x, const S& scatterer, Color factor, const Light& ligh
   const LightPoint point = light.sample_point(numbers.point(k));
   const IncomingLight in = LightTechnique<C>(light, context, bounce, numbers.index(k)).draw(point, x, scatterer);
   if (is_black(in.scattered)) return;
+  context.note(bounce, x, DistanceTechnique::Other, factor * in.scattered);
   shadows.add(light, Ray{x, in.wi, {0, in.distance}}, factor * in.scattered, numbers, k);
 }
 

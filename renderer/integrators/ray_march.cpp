@@ -5,6 +5,7 @@
 #include "renderer/integrators/path.h"
 #include "renderer/integrators/registry.h"
 #include "renderer/march/distribute.h"
+#include "renderer/march/ray_point.h"
 
 namespace brume {
 
@@ -55,7 +56,7 @@ template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context
         if (rec.p[i] == 0) continue;
         const ArenaScope step_scope(context.arena);
         const float width = rec.t[i + 1] - rec.t[i];
-        const RayPoint<C> at = evaluate(rec, rec.t[i] + settings.offset * width, i);
+        const RayPoint<C> at = looked_up_point(rec, i);
         Color scattered = beta * (weight / static_cast<float>(samples));
         for (int c = 0; c < 3; ++c) {
           const int channel = C == 1 ? 0 : c;

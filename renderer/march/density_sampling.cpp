@@ -5,19 +5,6 @@
 namespace brume {
 namespace {
 
-/// The segment between two edges that holds a value: the last one that begins at or below it.
-/// @param edges  [n + 1], ascending.  @param n  > 0.  @return in [0, n)
-int segment_of(const float* edges, int n, float value) {
-  // The number of steps depends on n only and no branch on the values: half of such branches would be mispredicted.
-  const float* first = edges;
-  for (int left = n; left > 1;) {
-    const int half = left / 2;
-    first += first[half] <= value ? half : 0;
-    left -= half;
-  }
-  return static_cast<int>(first - edges);
-}
-
 /// Solves 1 - exp(-x s) = v (1 - exp(-x)) for s in thin segments, x below 0.05, where the difference would cancel.
 float thin_inverse(float v, float x) {
   const float m = 1 - x * (0.5f - x * (1.0f / 6 - x * (1.0f / 24)));  // (1 - exp(-x)) / x
@@ -26,19 +13,6 @@ float thin_inverse(float v, float x) {
 }
 
 }  // namespace
-
-template <int C> int find_segment(const MarchRecord<C>& rec, float t) { return segment_of(rec.t, rec.n, t); }
-
-template <int C> RayPoint<C> evaluate(const MarchRecord<C>& rec, float t, int segment) {
-  RayPoint<C> point{t, segment, {}, {}};
-  const auto i = static_cast<std::size_t>(segment);
-  for (std::size_t c = 0; c < C; ++c) {
-    point.sigma_s.v[c] = rec.sigma_s[c][i];
-    point.transmittance.v[c] = rec.transmittance[c][i] * std::exp(-rec.sigma_t[c][i] * (t - rec.t[i]));
-  }
-  return point;
-}
-
 DrawnSegment draw_segment(const float* cdf, int n, float u) {
   const float target = u * cdf[n];
   // Segments of no weight have cdf[i] == cdf[i + 1] and are stepped over, but for a target that was rounded up to the
@@ -48,12 +22,21 @@ DrawnSegment draw_segment(const float* cdf, int n, float u) {
   return {i, std::clamp((target - cdf[i]) / (cdf[i + 1] - cdf[i]), 0.0f, 1.0f)};
 }
 
-template <int C> RayPoint<C> DensitySampling<C>::sample(float u) const {
+template <int C> SampledPoint<C> DensitySampling<C>::sample(float u) const {
   const DrawnSegment drawn = draw_segment(record_.cdf, record_.n, u);
-  return sample_in(drawn.segment, drawn.rest);
+  SampledPoint<C> sample = sample_in(drawn.segment, drawn.rest);
+  sample.pdf_t *= record_.p[drawn.segment] / record_.scattered();
+  return sample;
 }
 
-template <int C> RayPoint<C> DensitySampling<C>::sample_in(int segment, float v) const {
+template <int C> SampledPoint<C> DensitySampling<C>::sample_in(int segment, float v) const {
+  const MarchRecord<C>& rec = record_;
+  if (!is_drawn(segment)) return {looked_up_point(rec, segment), 1 / (rec.t[segment + 1] - rec.t[segment])};
+  const RayPoint<C> at = exponential(segment, v);
+  return {at, scattered_at(at) / rec.p[segment]};
+}
+
+template <int C> RayPoint<C> DensitySampling<C>::exponential(int segment, float v) const {
   const MarchRecord<C>& rec = record_;
   const auto i = static_cast<std::size_t>(segment);
 
@@ -85,16 +68,18 @@ template <int C> RayPoint<C> DensitySampling<C>::sample_in(int segment, float v)
     return evaluate(rec, t, segment);
 }
 
-template <int C> float DensitySampling<C>::pdf(const RayPoint<C>& point) const {
+template <int C> float DensitySampling<C>::scattered_at(const RayPoint<C>& point) const {
   float sum = 0;
   for (int c = 0; c < C; ++c) sum += record_.weight[c] * point.sigma_s[c] * point.transmittance[c];
-  return sum / record_.scattered();
+  return sum;
 }
 
-template int find_segment<1>(const MarchRecord<1>&, float);
-template int find_segment<3>(const MarchRecord<3>&, float);
-template RayPoint<1> evaluate<1>(const MarchRecord<1>&, float, int);
-template RayPoint<3> evaluate<3>(const MarchRecord<3>&, float, int);
+template <int C> float DensitySampling<C>::pdf(const RayPoint<C>& point) const {
+  const int i = point.segment;
+  const float here = is_drawn(i) ? scattered_at(point) : record_.p[i] / (record_.t[i + 1] - record_.t[i]);
+  return here / record_.scattered();
+}
+
 template class DensitySampling<1>;
 template class DensitySampling<3>;
 

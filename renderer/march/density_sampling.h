@@ -1,26 +1,9 @@
 // Distances drawn in proportion to what the medium scatters.
 #pragma once
 
-#include "renderer/march/march_record.h"
+#include "renderer/march/ray_point.h"
 
 namespace brume {
-
-/// The state of the ray at a distance t, read off the record in O(log n).
-template <int C> struct RayPoint {
-  float t;
-  int segment;
-  Spectrum<C> sigma_s;
-  Spectrum<C> transmittance;  ///< from the start of the record
-};
-
-/// The segment that holds t, by binary search.  @param t  inside record.span()
-template <int C> int find_segment(const MarchRecord<C>& record, float t);
-
-template <int C> RayPoint<C> evaluate(const MarchRecord<C>& record, float t, int segment);
-
-template <int C> RayPoint<C> evaluate(const MarchRecord<C>& record, float t) {
-  return evaluate(record, t, find_segment(record, t));
-}
 
 /// A segment drawn in proportion to its part of a running sum, and what is left of the number that drew it, in [0, 1].
 struct DrawnSegment {
@@ -31,25 +14,45 @@ struct DrawnSegment {
 /// By binary search.  @param cdf  [n + 1], not normalised, cdf[n] > 0.  @param u  in [0,1)
 DrawnSegment draw_segment(const float* cdf, int n, float u);
 
-/// Density sampling: pdf(t) = sum_c weight_c sigma_s_c(t) T_c(t) / sum_i P_i, normalised over the record.
-/// For one channel the estimator sigma_s T / pdf is then the same number for every t. With several it is the balance
-/// heuristic over "draw the distance for channel c" (weights at most 1 / weight_c).
-/// Needs record.scattered() > 0.
+/// Where in a segment that varies a distance is put.
+enum class PlaceInSegment {
+  /// By the exponential, as if the segment were homogeneous: what is scattered and what is let through add up to 1 on
+  /// every ray, so paths and the light of an environment, which comes from everywhere, neither gain nor lose energy.
+  Drawn,
+  /// Where it was looked up. Over the passes the place is uniform in the segment, and what scatters goes with the light
+  /// that arrives there. Drawn anew, the place knows nothing of the coefficient; the medium and the light of a lamp,
+  /// which vary together inside a step because of the shadows, are averaged apart: half a percent too bright at steps
+  /// of a voxel, five in dense smoke.
+  LookedUp,
+};
+
+/// Density sampling: segment i is drawn with probability P_i / sum P. Where it is homogeneous, or places are drawn, the
+/// distance has
+///   pdf(t) = sum_c weight_c sigma_s_c(t) T_c(t) / sum P,
+/// and for one channel the estimator sigma_s T / pdf is then the same number for every t; with several it is the
+/// balance heuristic over "draw the distance for channel c" (weights at most 1 / weight_c). Elsewhere it is the place
+/// where the segment was looked up, with pdf(t) = P_i / (delta_i sum P). Both are exact where the medium is constant in
+/// every segment. Needs record.scattered() > 0.
 template <int C> class DensitySampling {
  public:
-  explicit DensitySampling(const MarchRecord<C>& record) : record_(record) {}
+  DensitySampling(const MarchRecord<C>& record, PlaceInSegment place) : record_(record), place_(place) {}
 
-  /// Segment by binary search in the CDF, then the exponential of that segment inverted.  @param u in [0,1)
-  RayPoint<C> sample(float u) const;
+  /// Segment by binary search in the CDF, then the place in it.  @param u in [0,1)
+  SampledPoint<C> sample(float u) const;
 
-  /// The same inside a segment that scatters.  @param v  in [0, 1]
-  RayPoint<C> sample_in(int segment, float v) const;
+  /// The same inside a segment that scatters, with the density given that segment.  @param v  in [0, 1]
+  SampledPoint<C> sample_in(int segment, float v) const;
 
   /// Of any point of the ray, per world unit.
   float pdf(const RayPoint<C>& point) const;
 
  private:
+  bool is_drawn(int segment) const { return place_ == PlaceInSegment::Drawn || record_.homogeneous[segment]; }
+  RayPoint<C> exponential(int segment, float v) const;
+  float scattered_at(const RayPoint<C>& point) const;
+
   const MarchRecord<C>& record_;
+  PlaceInSegment place_;
 };
 
 }  // namespace brume

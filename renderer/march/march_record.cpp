@@ -28,14 +28,14 @@ struct Stretch {
   int first;  // segment
   int count;  // segments
   float step;
-  bool uniform;  // all its media are homogeneous (or there are none): nothing to look up
+  bool homogeneous;  // all its media are homogeneous (or there are none): nothing to look up
 };
 
 /// Writes the edges at which the stretch's segments begin. @return where they are looked up, if they are
 PointBatch write_segments(const Stretch& stretch, const Ray& ray, const MarchSettings& settings, float* t,
                           Arena& arena) {
   const StepRow row{stretch.span.begin, stretch.step, settings.offset, stretch.count};
-  if (stretch.uniform) {  // constant shaders are not asked at all
+  if (stretch.homogeneous) {  // constant shaders are not asked at all
     write_edges(row, t);
     return {};
   }
@@ -110,8 +110,8 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
     stretch = {{presence.edges[s], presence.edges[s + 1]}, rec.n, 1, settings.step, true};
     const float middle = 0.5f * (stretch.span.begin + stretch.span.end);
     for (std::size_t m = 0; m < media.size(); ++m)
-      if (!media[m].traits.constant && presence.contains(m, middle)) stretch.uniform = false;
-    if (!stretch.uniform || settings.split_homogeneous)
+      if (!media[m].traits.constant && presence.contains(m, middle)) stretch.homogeneous = false;
+    if (!stretch.homogeneous || settings.split_homogeneous)
       stretch.count = segment_count(stretch.span.length(), stretch.step, counts);
     rec.longest = std::max(rec.longest, stretch.count == 1 ? stretch.span.length() : stretch.step);
     rec.n += stretch.count;
@@ -129,10 +129,14 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
     rec.medium_density = arena.alloc_span<float*>(media.size()).data();
     for (std::size_t m = 0; m < media.size(); ++m) std::fill_n(rec.medium_density[m] = alloc(), n, 0.0f);
   }
+  rec.homogeneous = arena.alloc_span<bool>(n).data();
+  rec.offset = settings.offset;
   float* t = arena.alloc_span<float>(n + kWidestVector).data();
   rec.t = t;
-  for (const Stretch& stretch : stretches)
+  for (const Stretch& stretch : stretches) {
+    std::fill_n(rec.homogeneous + stretch.first, stretch.count, stretch.homogeneous);
     look_up(stretch, media, presence, contents, ray, settings, rec, t, arena, counts);
+  }
   t[n] = stretches.back().span.end;
   return rec;
 }

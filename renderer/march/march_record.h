@@ -41,6 +41,8 @@ template <int C> struct MarchRecord {
   std::array<float*, C> sigma_s = {};
   std::array<float*, 3> emission = {};  ///< [n] W/(sr m^3); null where no medium emits
   float** medium_density = nullptr;     ///< [media][n]; null unless several media may share a point
+  bool* homogeneous = nullptr;          ///< [n] nothing varies inside the segment
+  float offset = 0;                     ///< in [0,1): where inside every other segment the medium was looked up
 
   float longest = 0;  ///< bound of the segments' lengths
 

@@ -6,9 +6,6 @@
 namespace brume {
 namespace {
 
-/// Where the light is farther from a segment than so many of its lengths, 1/r^2 is taken as constant in it.
-constexpr float kNear = 6;
-
 /// Share of the samples that look to the light only. Where the medium between ray and light is dense, what the product
 /// promises nearer to the camera is all shadow, and without them the noise would have no bound. Hesterberg 1995,
 /// "Weighted Average Importance Sampling and Defensive Mixture Distributions".
@@ -16,22 +13,21 @@ constexpr float kDefensive = 0.01f;
 
 }  // namespace
 
-template <int C> bool ProductSampling<C>::near(int i) const {
-  const float begin = record_.t[i], delta = record_.t[i + 1] - begin;
-  const float s = begin + 0.5f * delta - foot_, reach = kNear * delta;
-  return distance_ < reach && std::abs(s) < reach;
+template <int C> bool ProductSampling<C>::is_near(int i) const {
+  return foot_.is_near({record_.t[i], record_.t[i + 1]});
 }
 
 template <int C>
 ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const Ray& ray, const LightPivot& pivot, Interval lit,
                                     const PhaseFunction* phase, Arena& arena)
-    : record_(record), density_(record), lit_(lit) {
+    : record_(record), density_(record, PlaceInSegment::LookedUp), lit_(lit) {
   const Vec3d to_pivot = Vec3d(pivot.position) - Vec3d(ray.origin), direction(ray.direction);
-  foot_ = static_cast<float>(dot(to_pivot, direction));
-  const auto off_ray = static_cast<float>(length(to_pivot - direction * static_cast<double>(foot_)));
+  const auto foot = static_cast<float>(dot(to_pivot, direction));
+  const auto off_ray = static_cast<float>(length(to_pivot - direction * static_cast<double>(foot)));
   // As for equi-angular sampling, a pivot on the ray is taken as if it were next to it.
-  const float reach = std::max(std::abs(record.t[0] - foot_), std::abs(record.t[record.n] - foot_));
-  distance_ = std::max(std::hypot(off_ray, pivot.radius), 1e-7f * reach);
+  const float reach = std::max(std::abs(record.t[0] - foot), std::abs(record.t[record.n] - foot));
+  const float distance = std::max(std::hypot(off_ray, pivot.radius), 1e-7f * reach);
+  foot_ = {foot, distance};
 
   const auto n = static_cast<std::size_t>(record.n);
   float* cdf = arena.alloc_span<float>(n + kWidestVector).data();
@@ -41,9 +37,9 @@ ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const Ray& ray
   float* angle = arena.alloc_span<float>(n).data();
   float* cosine = arena.alloc_span<float>(n + kWidestVector).data();
   float* turned = arena.alloc_span<float>(n + kWidestVector).data();
-  const ProductTerms terms{.foot = foot_,
+  const ProductTerms terms{.foot = foot,
                            .off_ray = off_ray,
-                           .distance = distance_,
+                           .distance = distance,
                            .height = dot(ray.origin - pivot.position, pivot.normal),
                            .slope = dot(ray.direction, pivot.normal),
                            .two_sided = pivot.two_sided,
@@ -54,10 +50,11 @@ ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const Ray& ray
   }
   product_weights(record.t, record.p, phase ? turned : nullptr, record.n, terms, weight, angle);
   // Few segments are near the light: what holds for the others is mended there.
-  for (int i = find_segment(record, foot_ - kNear * record.longest); i < record.n; ++i) {
-    if (record.t[i] > foot_ + kNear * record.longest || distance_ > kNear * record.longest) break;
-    if (!near(i) || angle[i] == 0) continue;
-    const double a = record.t[i] - foot_, delta = record.t[i + 1] - record.t[i], b = a + delta, d = distance_;
+  const float reach_of_near = PivotFoot::kNear * record.longest;
+  for (int i = find_segment(record, foot - reach_of_near); distance < reach_of_near && i < record.n; ++i) {
+    if (record.t[i] > foot + reach_of_near) break;
+    if (!is_near(i) || angle[i] == 0) continue;
+    const double a = record.t[i] - foot, delta = record.t[i + 1] - record.t[i], b = a + delta, d = distance;
     const auto exact = static_cast<float>(std::atan2(d * delta, d * d + a * b) / d);
     weight[i] *= exact / angle[i];
     angle[i] = exact;
@@ -71,17 +68,22 @@ ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const Ray& ray
 
 template <int C> float ProductSampling<C>::total() const { return cdf_[record_.n] / (1 + kDefensive); }
 
-template <int C> typename ProductSampling<C>::Sample ProductSampling<C>::sample(float u) const {
+template <int C> float ProductSampling<C>::mean_pdf(int i) const {
+  return (cdf_[i + 1] - cdf_[i]) / cdf_[record_.n] / (record_.t[i + 1] - record_.t[i]);
+}
+
+template <int C> SampledPoint<C> ProductSampling<C>::sample(float u) const {
   const DrawnSegment drawn = draw_segment(cdf_, record_.n, u);
-  const auto i = static_cast<std::size_t>(drawn.segment);
+  const int i = drawn.segment;
   const float share = (cdf_[i + 1] - cdf_[i]) / cdf_[record_.n];
-  if (near(drawn.segment)) {
+  if (is_near(i)) {
     const Interval part = intersect({record_.t[i], record_.t[i + 1]}, lit_);
-    const DistanceSample s = EquiangularSampling({foot_, distance_}, part).sample(drawn.rest);
-    return {evaluate(record_, s.t, drawn.segment), share * s.pdf_t};
+    const DistanceSample s = EquiangularDistribution(foot_, part).sample(drawn.rest);
+    return {evaluate(record_, s.t, i), share * s.pdf_t};
   }
-  const RayPoint<C> at = density_.sample_in(drawn.segment, drawn.rest);
-  return {at, share * density_.pdf(at) * record_.scattered() / record_.p[i]};
+  SampledPoint<C> sample = density_.sample_in(i, drawn.rest);
+  sample.pdf_t *= share;
+  return sample;
 }
 
 template class ProductSampling<1>;

@@ -4,7 +4,7 @@
 #include "renderer/core/ray.h"
 #include "renderer/lights/light.h"
 #include "renderer/march/density_sampling.h"
-#include "renderer/march/equiangular.h"
+#include "renderer/march/equiangular_distribution.h"
 #include "renderer/phase/phase_function.h"
 
 namespace brume {
@@ -27,21 +27,19 @@ template <int C> class ProductSampling {
   /// Sum of the products: the light that the ray scatters to its origin, unshadowed, for a light of unit intensity.
   float total() const;
 
-  struct Sample {
-    RayPoint<C> at;
-    float pdf_t;  ///< per world unit
-  };
   /// Needs total() > 0.  @param u  in [0,1)
-  Sample sample(float u) const;
+  SampledPoint<C> sample(float u) const;
+
+  /// Probability of a segment over its length, per world unit.
+  float mean_pdf(int segment) const;
 
  private:
-  bool near(int segment) const;
+  bool is_near(int segment) const;
 
   const MarchRecord<C>& record_;
   DensitySampling<C> density_;
   Interval lit_;
-  float foot_;        // t of the pivot's foot on the ray
-  float distance_;    // of the pivot from the ray; at least its radius
+  PivotFoot foot_;    // no nearer than the pivot's radius
   const float* cdf_;  // [n + 1]
 };
 

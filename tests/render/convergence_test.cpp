@@ -169,7 +169,7 @@ double single_scattering(const Profile& profile, double albedo, const std::funct
 
 // From a step of 1/8 on: the densest profile has an optical depth of 10 per unit.
 TEST(Convergence, SingleScatteringOfASunFromTheSideAndFromBehindHasOrderTwo) {
-  const int samples = (full_effort() ? 4096 : 512) / (kFewer > 1 ? 4 : 1);  // fewer are too noisy to judge
+  const int samples = (full_effort() ? 16384 : 4096) / (kFewer > 1 ? 2 : 1);  // fewer are too noisy to judge
   for (const Profile& profile : profiles())
     for (const bool from_the_side : {true, false}) {
       const double truth = single_scattering(profile, 0.8, [&](double z) {

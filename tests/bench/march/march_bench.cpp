@@ -71,12 +71,11 @@ void SampleDistance(benchmark::State& state) {
   Setup s(state);
   const ArenaScope scope(s.arena);
   const MarchRecord<1> rec = s.distributed();
-  const DensitySampling<1> density(rec);
+  const DensitySampling<1> density(rec, PlaceInSegment::LookedUp);
   float u = 0.5f;
   for (auto _ : state) {
     u = u > 0.38f ? u - 0.381966f : u + 0.618034f;
-    const RayPoint<1> at = density.sample(u);
-    benchmark::DoNotOptimize(density.pdf(at));
+    benchmark::DoNotOptimize(density.sample(u));
   }
 }
 BENCHMARK(SampleDistance)->ArgName("steps")->Arg(32)->Arg(128)->Arg(1024);

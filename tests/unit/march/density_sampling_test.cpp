@@ -37,7 +37,7 @@ template <int C> double integral(const DensitySampling<C>& sampling, const March
 
 /// Chi-square of samples against the reported density, over cells of equal width; and what every sampler promises.
 template <int C> void expect_samples_follow_the_density(const MarchRecord<C>& rec, const char* what) {
-  const DensitySampling<C> sampling(rec);
+  const DensitySampling<C> sampling(rec, PlaceInSegment::Drawn);
   constexpr int kBins = 64, kN = 100000;
   const double begin = double(rec.span().begin), width = double(rec.span().length()) / kBins;
   std::vector<double> observed(kBins), expected;
@@ -52,10 +52,11 @@ template <int C> void expect_samples_follow_the_density(const MarchRecord<C>& re
   // Density 0 may show 1e-12 of a count from the quadrature.
   for (double& e : expected) e = e < 1e-6 ? 0 : e;
   for (std::uint32_t i = 0; i < kN; ++i) {
-    const auto s = sampling.sample(random_number(i));
+    const auto [s, drawn_pdf] = sampling.sample(random_number(i));
     ASSERT_TRUE(s.t >= rec.span().begin && s.t <= rec.span().end) << what;
     const double pdf = double(sampling.pdf(s));
     ASSERT_GT(pdf, 0) << what;
+    ASSERT_NEAR(double(drawn_pdf) / pdf, 1, 1e-6) << what;
     if (i % 100 == 0) {
       // Where t is the edge of a segment, evaluate() may take it for the next one's; both are limits of the density.
       const int segment = find_segment(rec, s.t);
@@ -67,6 +68,35 @@ template <int C> void expect_samples_follow_the_density(const MarchRecord<C>& re
     ++observed[static_cast<std::size_t>(std::clamp(static_cast<int>((double(s.t) - begin) / width), 0, kBins - 1))];
   }
   EXPECT_GT(chi_square_p_value(observed, expected), kChiSquareSignificance) << what;
+}
+
+/// Where segments vary: chosen with the probability P_i, and then at the place where they were looked up.
+template <int C> void expect_segments_follow_their_weights(const MarchRecord<C>& rec, const char* what) {
+  const DensitySampling<C> sampling(rec, PlaceInSegment::LookedUp);
+  constexpr int kN = 100000;
+  std::vector<double> observed(static_cast<std::size_t>(rec.n)), expected;
+  for (int i = 0; i < rec.n; ++i) expected.push_back(kN * double(rec.p[i] / rec.scattered()));
+  for (std::uint32_t i = 0; i < kN; ++i) {
+    const auto [s, pdf] = sampling.sample(random_number(i));
+    const auto drawn = static_cast<std::size_t>(s.segment);
+    const float delta = rec.t[drawn + 1] - rec.t[drawn];
+    ASSERT_NEAR(s.t, rec.t[drawn] + rec.offset * delta, 1e-6f) << what;
+    ASSERT_NEAR(double(pdf * delta) * kN / expected[drawn], 1, 1e-5) << what;
+    ASSERT_NEAR(sampling.pdf(s) / pdf, 1, 1e-6) << what;
+    ++observed[drawn];
+  }
+  EXPECT_GT(chi_square_p_value(observed, expected), kChiSquareSignificance) << what;
+}
+
+TEST(DensitySampling, SegmentsThatVaryAreChosenByTheirWeightAndSampledWhereTheyWereLookedUp) {
+  const auto rough = [](float z) { return 0.2f + std::abs(std::sin(3 * z)); };
+  for (const float offset : {0.0f, 0.3f, 0.99f}) {
+    RecordedRay<1> grey({profile_box(rough, kLow, kHigh, Color(0.5f), Color(0.7f))}, ray_along_z(-1), 0.1f, offset);
+    expect_segments_follow_their_weights(*grey, "grey");
+    RecordedRay<3> coloured({profile_box(rough, kLow, kHigh, {0.1f, 1, 6}, {0.2f, 1, 8})}, ray_along_z(-1), 0.13f,
+                            offset, {0.01f, 1, 0.2f});
+    expect_segments_follow_their_weights(*coloured, "chromatic");
+  }
 }
 
 TEST(DensitySampling, SamplesFollowTheDensityInOneChannel) {
@@ -111,9 +141,9 @@ TEST(DensitySampling, GapsAreStepsOfTheCdfAndAreNeverHit) {
   media[0].sigma_s = {1, 0, 0.5f}, media[0].sigma_t = {3, 0, 1};
   RecordedRay<3> chromatic(media, ray_along_z(-1), 0.1f);
   expect_samples_follow_the_density(*chromatic, "with gaps, chromatic");
-  const DensitySampling<1> sampling(*grey);
+  const DensitySampling<1> sampling(*grey, PlaceInSegment::Drawn);
   for (std::uint32_t i = 0; i < 20000; ++i) {
-    const float z = sampling.sample(random_number(i)).t - 1;
+    const float z = sampling.sample(random_number(i)).at.t - 1;
     const bool in_a_gap = (z > 1.0001f && z < 1.9999f) || z > 3.0001f;
     ASSERT_FALSE(in_a_gap) << z;
   }
@@ -126,7 +156,7 @@ TEST(DensitySampling, EveryNumberFromTheUnitIntervalGivesAPointThatScatters) {
                             homogeneous_box({-1, -1, 3}, {1, 1, 4}, Color(1), Color(1)),
                             homogeneous_box({-1, -1, 5}, {1, 1, 6}, Color(0), Color(9))};
   RecordedRay<1> r(media, ray_along_z(-1), 1);
-  const DensitySampling<1> sampling(*r);
+  const DensitySampling<1> sampling(*r, PlaceInSegment::Drawn);
   std::vector<float> numbers{0, 1e-30f, 0x1p-24f, 0.5f, 0x1.fffffep-1f, 0x1.fffffcp-1f};
   for (int i = 0; i <= r->n; ++i) {
     const float at = r->cdf[i] / r->scattered();
@@ -134,7 +164,7 @@ TEST(DensitySampling, EveryNumberFromTheUnitIntervalGivesAPointThatScatters) {
       if (u >= 0 && u < 1) numbers.push_back(u);
   }
   for (const float u : numbers) {
-    const RayPoint<1> s = sampling.sample(u);
+    const RayPoint<1> s = sampling.sample(u).at;
     EXPECT_GT(sampling.pdf(s), 0) << "u = " << u;
     EXPECT_TRUE((s.t >= 2 && s.t <= 3) || (s.t >= 4 && s.t <= 5)) << "u = " << u << " gives t = " << s.t;
   }
@@ -143,9 +173,9 @@ TEST(DensitySampling, EveryNumberFromTheUnitIntervalGivesAPointThatScatters) {
 TEST(DensitySampling, TheWeightOfASampleIsTheSameForEveryDistanceInOneChannel) {
   RecordedRay<1> r({profile_box([](float z) { return 0.1f + z; }, kLow, kHigh, Color(0.5f), Color(0.7f))},
                    ray_along_z(-1), 0.1f);
-  const DensitySampling<1> sampling(*r);
+  const DensitySampling<1> sampling(*r, PlaceInSegment::Drawn);
   for (std::uint32_t i = 0; i < 1000; ++i) {
-    const RayPoint<1> p = sampling.sample(random_number(i));
+    const RayPoint<1> p = sampling.sample(random_number(i)).at;
     EXPECT_NEAR(p.sigma_s[0] * p.transmittance[0] / sampling.pdf(p) / r->scattered(), 1, 3e-7);
   }
 }
@@ -155,9 +185,9 @@ TEST(DensitySampling, NoWeightExceedsTheInverseOfItsChannelsShare) {
   // bound.
   const Color throughput{0.2f, 0.3f, 0.5f};
   RecordedRay<3> r({homogeneous_box(kLow, kHigh, {1, 4, 16}, {1, 4, 16})}, ray_along_z(-1), 1, 0.5f, throughput);
-  const DensitySampling<3> sampling(*r);
+  const DensitySampling<3> sampling(*r, PlaceInSegment::Drawn);
   for (std::uint32_t i = 0; i < 20000; ++i) {
-    const RayPoint<3> p = sampling.sample(random_number(i));
+    const RayPoint<3> p = sampling.sample(random_number(i)).at;
     for (int c = 0; c < 3; ++c)
       ASSERT_LE(p.sigma_s[c] * p.transmittance[c] / sampling.pdf(p), r->scattered() / throughput[c] * 1.00001f);
   }

@@ -11,6 +11,20 @@ struct DistanceSample {
   float pdf_t;  ///< per world unit; > 0
 };
 
+/// A pivot seen from a ray.
+struct PivotFoot {
+  double t;         ///< of the point of the ray that is next to it
+  double distance;  ///< from there, > 0
+
+  /// Where the pivot is farther from a part of the ray than so many of its lengths, 1/r^2 is taken as constant in it.
+  static constexpr float kNear = 6;
+
+  bool is_near(Interval part) const {
+    const double reach = static_cast<double>(kNear * part.length());
+    return distance < reach && std::abs(0.5 * (static_cast<double>(part.begin) + part.end) - t) < reach;
+  }
+};
+
 /// Equi-angular sampling of a span of a ray about a pivot: pdf(t) = D / (d_theta (D^2 + s^2)), where s = t - foot is
 /// measured from the foot of the pivot on the ray and D is the pivot's distance from the ray.
 /// Kulla & Fajardo 2012, "Importance Sampling Techniques for Path Tracing in Participating Media", section 3 (their
@@ -22,17 +36,12 @@ struct DistanceSample {
 ///   s = a + tan(phi) (D^2 + a^2) / (D - a tan(phi)),  phi = u d_theta.
 /// A pivot on the ray (D = 0) is taken as if it were 1e-7 of the span away from it, by sample() and pdf() alike. Where
 /// even so the angle vanishes, both are uniform.
-class EquiangularSampling {
+class EquiangularDistribution {
  public:
   /// @param span  world units, not empty
-  EquiangularSampling(const Ray& ray, Vec3 pivot, Interval span);
+  EquiangularDistribution(const Ray& ray, Vec3 pivot, Interval span);
 
-  /// A pivot seen from the ray.
-  struct Foot {
-    double t;         ///< of the point of the ray that is next to it
-    double distance;  ///< from there, > 0
-  };
-  EquiangularSampling(Foot foot, Interval span);
+  EquiangularDistribution(PivotFoot foot, Interval span);
 
   /// @param u  in [0,1)
   DistanceSample sample(float u) const;
@@ -40,15 +49,19 @@ class EquiangularSampling {
   /// Per world unit; 0 outside the span.
   float pdf(float t) const;
 
+  /// Probability of a part of the span that is far from the pivot.
+  float probability(Interval far_part) const;
+
+  const PivotFoot& foot() const { return foot_; }
+
  private:
-  static Foot foot_of(const Ray& ray, Vec3 pivot, Interval span);
+  static PivotFoot foot_of(const Ray& ray, Vec3 pivot, Interval span);
   double pdf_at(double s) const;
 
   Interval span_;
-  double foot_;      // t of the pivot's foot
-  double distance_;  // D
-  double a_, b_;     // ends of the span from the foot
-  double d_theta_;   // angle under which the pivot sees the span; 0: uniform
+  PivotFoot foot_;
+  double a_, b_;    // ends of the span from the foot
+  double d_theta_;  // angle under which the pivot sees the span; 0: uniform
 };
 
 }  // namespace brume

@@ -1,4 +1,4 @@
-#include "renderer/march/equiangular.h"
+#include "renderer/march/equiangular_distribution.h"
 
 #include <gtest/gtest.h>
 
@@ -34,14 +34,14 @@ const Placement kPlacements[] = {
     {"foot on the end of the span", 4, 0.1, {1, 4}},   {"foot far away", -1000, 1, {0, 1}},
 };
 
-EquiangularSampling sampling_of(const Placement& s) {
+EquiangularDistribution sampling_of(const Placement& s) {
   return {kRay, {static_cast<float>(s.foot), static_cast<float>(s.distance), 0}, s.span};
 }
 
 TEST(Equiangular, SampledDistancesFollowTheDensity) {
   constexpr int kN = 100000, kBins = 50;
   for (const Placement& s : kPlacements) {
-    const EquiangularSampling sampling = sampling_of(s);
+    const EquiangularDistribution sampling = sampling_of(s);
     // Cells of equal probability, by the closed form of the CDF (an angle), in double.
     const double foot = double(static_cast<float>(s.foot)), D = double(static_cast<float>(s.distance));
     const double a = double(s.span.begin) - foot, b = double(s.span.end) - foot;
@@ -65,7 +65,7 @@ TEST(Equiangular, SampledDistancesFollowTheDensity) {
 
 TEST(Equiangular, DensityIntegratesToOneAndIsThatOfTheSample) {
   for (const Placement& s : kPlacements) {
-    const EquiangularSampling sampling = sampling_of(s);
+    const EquiangularDistribution sampling = sampling_of(s);
     const double foot = double(static_cast<float>(s.foot)), D = double(static_cast<float>(s.distance));
     // Over the angle, in which the density is flat: t = foot + D tan(theta).
     const double first = std::atan2(double(s.span.begin) - foot, D), last = std::atan2(double(s.span.end) - foot, D);
@@ -94,7 +94,7 @@ TEST(Equiangular, DensityIntegratesToOneAndIsThatOfTheSample) {
 }
 
 TEST(Equiangular, DensityIsZeroOutsideTheSpan) {
-  const EquiangularSampling sampling(kRay, {5, 1, 0}, {2, 8});
+  const EquiangularDistribution sampling(kRay, {5, 1, 0}, {2, 8});
   EXPECT_EQ(sampling.pdf(1.999f), 0);
   EXPECT_EQ(sampling.pdf(8.001f), 0);
   EXPECT_GT(sampling.pdf(2), 0);
@@ -105,7 +105,7 @@ TEST(Equiangular, DensityIsZeroOutsideTheSpan) {
 TEST(Equiangular, PivotOnTheRayGivesFiniteSamplesThatAgreeWithTheDensity) {
   for (const Interval span : {Interval{0, 10}, Interval{3, 10}, Interval{0, 2}, Interval{2.5f, 10}})
     for (const float x : {2.5f, 0.0f, -4.0f, 10.0f}) {
-      const EquiangularSampling sampling(kRay, {x, 0, 0}, span);
+      const EquiangularDistribution sampling(kRay, {x, 0, 0}, span);
       RunningMean total;  // of 1/(pdf), the length of the span
       for (std::uint32_t i = 0; i < 4000; ++i) {
         const DistanceSample drawn = sampling.sample(random_number(i));
@@ -127,7 +127,7 @@ TEST(Equiangular, ShortSpansFarFromTheFootKeepAllTheirDistances) {
     for (const float delta : {100.0f, 1000.0f, 10000.0f, 1e6f}) {
       // The ray begins near the span: only the foot is far away.
       const Interval span{0, 1};
-      const EquiangularSampling sampling(kRay, {behind ? -delta : 1 + delta, 1, 0}, span);
+      const EquiangularDistribution sampling(kRay, {behind ? -delta : 1 + delta, 1, 0}, span);
       std::set<float> distinct;
       double worst = 0;
       for (int i = 0; i < 4096; ++i) {
@@ -150,7 +150,7 @@ TEST(Equiangular, ShortSpansFarFromTheFootKeepAllTheirDistances) {
 
 TEST(Equiangular, APivotOneMillionthFromTheRayIsResolved) {
   // Foot inside: half of all samples lie within D of the foot, whose position is exact here.
-  const EquiangularSampling sampling({{-0.5f, 0, 0}, {1, 0, 0}}, {-0.5f, 1e-6f, 0}, {0, 1});
+  const EquiangularDistribution sampling({{-0.5f, 0, 0}, {1, 0, 0}}, {-0.5f, 1e-6f, 0}, {0, 1});
   int close = 0;
   std::set<float> distinct;
   for (std::uint32_t i = 0; i < 4096; ++i) {
@@ -166,7 +166,7 @@ TEST(Equiangular, APivotOneMillionthFromTheRayIsResolved) {
 TEST(Equiangular, IntegralOfTheInverseSquareHasNoVariance) {
   for (const Placement& s : kPlacements) {
     if (s.distance < 1e-2) continue;  // floats of t are too coarse next to the light; see the render tests for those
-    const EquiangularSampling sampling = sampling_of(s);
+    const EquiangularDistribution sampling = sampling_of(s);
     const double foot = double(static_cast<float>(s.foot)), D = double(static_cast<float>(s.distance));
     const double exact = angle(double(s.span.begin) - foot, double(s.span.end) - foot, D) / D;
     for (std::uint32_t i = 0; i < 1000; ++i) {
@@ -181,7 +181,7 @@ TEST(Equiangular, IntegralOfTheInverseSquareHasNoVariance) {
 TEST(Equiangular, WorksInAnyDirectionAndFromAnyOrigin) {
   const Ray ray{{1, -2, 3}, normalize(Vec3(2, -1, 2))};
   const Vec3 beside = ray.at(2) + normalize(cross(ray.direction, Vec3(0, 0, 1))) * 0.5f;
-  const EquiangularSampling sampling(ray, beside, {0, 6});
+  const EquiangularDistribution sampling(ray, beside, {0, 6});
   for (std::uint32_t i = 0; i < 1000; ++i) {
     const DistanceSample drawn = sampling.sample(random_number(i));
     const double r2 = double(length_squared(ray.at(drawn.t) - beside));
