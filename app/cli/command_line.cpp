@@ -126,6 +126,8 @@ Command make_snapshot(CLI::App& root) {
                 .says("Samples per pixel of the rendered view"),
             [o](const Value& v) { o->snapshot.samples = to_int(v); });
   app->add_flag("--chart", o->snapshot.chart, "With the chart of errors against time");
+  app->add_flag("--search", o->snapshot.search, "With the chart of a search for the cheapest settings");
+  app->add_flag("--probe", o->snapshot.probe, "With the probe of the pixel in the middle");
   add_settings(*app, o->scene);
   return {app, [o] { return run_snapshot_command(o->scene, o->snapshot); }};
 }
@@ -176,7 +178,15 @@ Command make_compare(CLI::App& root) {
             [o](const Value& v) { o->threshold = std::get<double>(v); });
   add_value(*app, "STOPS",
             param::number("exposure", "Exposure", 0).between(-20, 20).in("stops").says("Exposure of what is seen"),
-            [o](const Value& v) { o->exposure = static_cast<float>(std::get<double>(v)); });
+            [o](const Value& v) { o->viewing.exposure = static_cast<float>(std::get<double>(v)); });
+  const auto end_of_range = [&](const char* key, const char* label, const char* doc, std::optional<float>& end) {
+    add_value(
+        *app, "STOPS",
+        param::number(key, label, 0).between(-200, 200).in("stops").auto_by_default("from the reference").says(doc),
+        [o, &end](const Value& v) { end = static_cast<float>(std::get<double>(v)); });
+  };
+  end_of_range("start-exposure", "Start exposure", "Darkest exposure of HDR-FLIP", o->viewing.start_exposure);
+  end_of_range("stop-exposure", "Stop exposure", "Brightest exposure of HDR-FLIP", o->viewing.stop_exposure);
   app->add_flag("--json", o->json, "As JSON");
   return {app, [o] { return run_compare(*o); }};
 }

@@ -6,7 +6,6 @@
 #include "app/cli/console.h"
 #include "app/cli/output_file.h"
 #include "app/cli/text_table.h"
-#include "renderer/analysis/metric.h"
 #include "renderer/core/input_file.h"
 #include "renderer/film/display_transform.h"
 #include "renderer/film/image_io.h"
@@ -52,6 +51,12 @@ Result<std::vector<const Metric*>> chosen(const CompareOptions& options) {
       return bad_input("found \"" + key + "\", expected one of " + join(metric_keys()), {"", 0, 0, "--metric"});
     list.push_back(metric);
   }
+  const Viewing& v = options.viewing;
+  if (v.start_exposure && v.stop_exposure && *v.start_exposure >= *v.stop_exposure)
+    return bad_input("found " + format_value(static_cast<double>(*v.stop_exposure)) +
+                         ", expected more than --start-exposure, which is " +
+                         format_value(static_cast<double>(*v.start_exposure)),
+                     {"", 0, 0, "--stop-exposure"});
   if (options.threshold && list.size() != 1)
     return bad_input("found no single metric, expected --metric with one to hold against it",
                      {"", 0, 0, "--threshold"});
@@ -60,7 +65,7 @@ Result<std::vector<const Metric*>> chosen(const CompareOptions& options) {
 
 /// What a person would see, as colours from black to pale yellow.
 Result<void> write_difference(const CompareOptions& options, const Image& test, const Image& reference) {
-  const auto seen = flip_at(test, reference, options.exposure);
+  const auto seen = flip_at(test, reference, options.viewing.exposure);
   if (!seen) return seen.error();
   return write_png(options.output, heat_map(*seen));
 }
@@ -81,7 +86,7 @@ Result<ExitCode> run_compare(const CompareOptions& options) {
   std::vector<std::vector<std::string>> rows;
   bool holds = true;
   for (const Metric* metric : *list) {
-    const auto value = metric->measure(*test, *reference, options.exposure);
+    const auto value = metric->measure(*test, *reference, options.viewing);
     if (!value && (!options.metrics.empty() || metric->key == "rmse")) {
       Error error = value.error();
       if (error.source.file.empty()) error.source.file = options.test;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/cli/exit_code.h"
+#include "renderer/analysis/metric.h"
 
 namespace brume {
 
@@ -14,7 +15,7 @@ struct CompareOptions {
   std::vector<std::string> metrics;  ///< by their keys; empty: all
   std::string output;                ///< picture of the differences, .png; empty: none
   std::optional<double> threshold;   ///< of the only metric; beyond it the check has failed
-  float exposure = 0;                ///< stops, for what is seen
+  Viewing viewing;                   ///< for what is seen
   bool json = false;
 };
 

@@ -26,14 +26,18 @@ Result<void> run_snapshot(LoadedScene scene, const SnapshotOptions& options) {
   if (!stage) return stage.error();
   Session session({.max_samples = options.samples, .reference_folder = reference_folder()});
   session.start(std::move(scene.description), scene.scene_path);
-  MainWindow window(session, (*stage)->gl(), {.chart = options.chart});
+  MainWindow window(session, (*stage)->gl(), {.chart = options.chart || options.search, .probe = options.probe});
+  if (options.search) session.search_settings();
   const auto draw = [&](const Gl&) { window.draw(); };
 
   // Frames go on, as in a window, until the picture has all its samples and has been drawn.
   for (bool finished = false; !finished;) {
     const Truth& truth = session.truth();
     const bool known = (truth.reference() && !truth.job()) || !truth.problem().empty();
-    finished = session.finished() && (!options.chart || known);
+    const auto probe = session.probe();
+    const bool probed = probe && probe->samples + probe->non_finite >= std::min(options.samples, 16);
+    finished =
+        session.finished() && (!options.chart || known) && (!options.probe || probed) && !session.search().progress();
     (*stage)->frame(draw);
     if (!session.problem().empty()) return bad_input(session.problem());
     if (!finished) std::this_thread::sleep_for(std::chrono::milliseconds(5));

@@ -8,6 +8,7 @@
 
 #include "app/headless/chart_file.h"
 #include "app/panels/chart_view.h"
+#include "app/ui/formatted.h"
 #include "app/ui/widgets.h"
 #include "renderer/analysis/chart_layout.h"
 #include "renderer/experiments/sweep_chart.h"
@@ -34,16 +35,50 @@ std::string reference_text(const Session& session, bool measured) {
 
 }  // namespace
 
+std::shared_ptr<const Sweep> ChartPanel::sweep(const Session& session) const {
+  return shows_search(session) ? session.search().found() : session.errors();
+}
+
 Chart ChartPanel::chart(const Sweep& sweep, const Session& session, bool measured) const {
   const SweepAxis& y = *find_sweep_axis(error_);
+  if (measured && shows_search(session)) {
+    Chart chart = pareto_chart(sweep, y);
+    chart.subtitle = session.title() + ". " + std::to_string(sweep.variants.size()) +
+                     " settings on a small picture, each after 1, 2, 3, 4, 6, 8, ... samples.";
+    return chart;
+  }
   Chart chart = chart_of(sweep, *find_sweep_axis("cpu_seconds"), y, "");
   chart.subtitle = session.title() + ". " + reference_text(session, measured);
   if (front_) add_front(sweep, y, {}, chart);
   return chart;
 }
 
+void ChartPanel::draw_search(Session& session) {
+  if (const auto progress = session.search().progress()) {
+    if (ui::button("Stop")) session.search().cancel();
+    ui::tooltip_on_hover("Gives the search up");
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", formatted("%.0f %%  ", 100 * progress->done).append(progress->what).c_str());
+    return;
+  }
+  if (ui::button("Search...")) {
+    session.search_settings();
+    searched_ = true;
+  }
+  ui::tooltip_on_hover(
+      "Measures all methods, several steps and light samples on a small picture of this scene, which takes about half "
+      "a minute, and shows what is cheapest for its error");
+  if (!session.search().problem().empty()) {
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", session.search().problem().c_str());
+  }
+  if (!session.search().found()) return;
+  ImGui::SameLine();
+  ui::checkbox("Found", searched_);
+  ui::tooltip_on_hover("Shows what the search has found, instead of what is rendered now");
+}
+
 bool ChartPanel::draw(Session& session, bool measured) {
-  const auto sweep = session.errors();
   const float em = ImGui::GetFontSize();
   std::vector<std::string> labels;
   int index = 0;
@@ -51,36 +86,38 @@ bool ChartPanel::draw(Session& session, bool measured) {
     if (error_ == key) index = static_cast<int>(labels.size());
     labels.push_back(find_sweep_axis(key)->label);
   }
-  ImGui::SetNextItemWidth(std::min(17 * em, 0.35f * ImGui::GetContentRegionAvail().x));
+  ImGui::SetNextItemWidth(std::min(14 * em, 0.3f * ImGui::GetContentRegionAvail().x));
   if (ui::combo("##error", index, labels)) error_ = kErrors[index];
   ui::tooltip_on_hover("What is charted. Net RMSE is the RMSE with the noise of the reference taken out.");
   ImGui::SameLine();
-  ui::checkbox("Cheapest", front_);
-  ui::tooltip_on_hover("Marks what is cheapest for its error, and the best: the cheapest within a tenth of the least.");
-  ImGui::SameLine();
-  const auto best = front_ ? best_row(*sweep, *find_sweep_axis(error_), {}) : std::nullopt;
-  if (best && ui::button("Apply best")) {
-    const Node settings = sweep->variants[sweep->rows[*best].variant].description;
-    session.change([&](Node& d) { d = with_variants_of(settings, d); });
-    session.close_step();
+  if (!shows_search(session)) {
+    ui::checkbox("Cheapest", front_);
+    ui::tooltip_on_hover(
+        "Marks what is cheapest for its error, and the best: the cheapest within a tenth of the least.");
+    ImGui::SameLine();
   }
+  const auto seen = sweep(session);
+  const bool chooses = front_ || shows_search(session);
+  const auto best = chooses ? best_row(*seen, *find_sweep_axis(error_), {}) : std::nullopt;
   if (best) {
+    if (ui::button("Apply best")) session.apply(seen->variants[seen->rows[*best].variant]);
     ui::tooltip_on_hover("Gives the scene the settings of the best variant");
     ImGui::SameLine();
   }
   const bool wants_export = ui::button("Export...");
   ui::tooltip_on_hover("Writes the chart as it is seen (.svg, .png), or its numbers (.csv)");
+  ImGui::SameLine();
+  draw_search(session);
 
   const ImVec2 room = ImGui::GetContentRegionAvail();
   width_ = room.x, height_ = room.y, font_ = em * 0.918f;
-  chart_view("chart", measured ? chart(*sweep, session, true) : chart({}, session, false), room);
+  chart_view("chart", measured ? chart(*seen, session, true) : chart({}, session, false), room);
   return wants_export;
 }
 
 Result<void> ChartPanel::write(const Session& session, const std::string& path) const {
-  const auto sweep = session.errors();
-  return write_chart(path, lay_out(chart(*sweep, session, true), {width_, height_, font_, Ground::Dark}).drawing,
-                     *sweep);
+  const auto seen = sweep(session);
+  return write_chart(path, lay_out(chart(*seen, session, true), {width_, height_, font_, Ground::Dark}).drawing, *seen);
 }
 
 }  // namespace brume

@@ -6,8 +6,10 @@
 #include <filesystem>
 
 #include "app/panels/outliner.h"
+#include "app/panels/probe_panel.h"
 #include "app/panels/status_bar.h"
 #include "app/panels/variant_list.h"
+#include "app/session/load_scene.h"
 #include "app/ui/keys.h"
 #include "app/ui/widgets.h"
 
@@ -31,6 +33,8 @@ constexpr Shortcut kHelp[] = {{"Left drag", "orbit"},
                               {"Shift+D", "difference from the reference"},
                               {"V", "duplicate as variant"},
                               {"C", "chart of error against time"},
+                              {"P", "probe a pixel; a click chooses which"},
+                              {"T", "keep a take: the picture and its scene"},
                               {"E, Shift+E", "exposure up, down"},
                               {"Space", "pause, go on"},
                               {"R", "restart the picture"},
@@ -50,8 +54,11 @@ MainWindow::MainWindow(Session& session, const Gl& gl, const MainWindowOptions& 
     : session_(session),
       options_(options),
       viewport_(gl),
+      take_strip_(gl),
       selected_(NodePath().child("render")),
-      show_chart_(options.chart) {}
+      show_chart_(options.chart) {
+  controls_.view().probing = options.probe;
+}
 
 void MainWindow::draw() {
   session_.update();
@@ -120,6 +127,21 @@ void MainWindow::ask_export_chart() {
                 }});
 }
 
+void MainWindow::ask_export_take(std::size_t index) {
+  const Take take = session_.takes()[index];  // it may be gone when the dialog is answered
+  const std::string name = "take_" + std::to_string(take.number) + ".exr";
+  dialog_.open({"Export take", {".png", ".exr"}, true, name, [this, take](const std::string& path) {
+                  const auto done = write_picture(path, *take.picture, take.description);
+                  report(done);
+                  if (done) session_.say(LogLevel::Info, "Exported " + path + ".");
+                }});
+}
+
+void MainWindow::keep_take() {
+  session_.keep_take(controls_.view().shown);
+  show_takes_ = true;
+}
+
 void MainWindow::ask_file(const FileWish& wish) {
   const auto variant = edited_variant_;
   const EditTarget target(session_, variant);
@@ -165,6 +187,8 @@ void MainWindow::handle_keys() {
   if (ui::shortcut(Key::F)) session_.frame_all();
   if (ui::shortcut(Key::R)) session_.restart();
   if (ui::shortcut(Key::C)) show_chart_ = !show_chart_;
+  if (ui::shortcut(Key::P)) controls_.view().probing = !controls_.view().probing;
+  if (ui::shortcut(Key::T)) keep_take();
   if (ui::shortcut(Key::L)) show_log_ = !show_log_;
   if (ui::shortcut(Key::Tab)) show_panels_ = !show_panels_;
   if (ui::shortcut(Key::Space)) session_.set_paused(!session_.paused());
@@ -207,6 +231,11 @@ void MainWindow::draw_menu() {
     if (ui::menu_item("Frame everything", "F")) session_.frame_all();
     if (ui::menu_item("Picture only", "Tab", !show_panels_)) show_panels_ = !show_panels_;
     if (ui::menu_item("Log", "L", show_log_)) show_log_ = !show_log_;
+    bool& probing = controls_.view().probing;
+    if (ui::menu_item("Pixel probe", "P", probing)) probing = !probing;
+    ImGui::Separator();
+    if (ui::menu_item("Keep a take", "T", false, session_.picture() != nullptr)) keep_take();
+    if (ui::menu_item("Takes", "", show_takes_)) show_takes_ = !show_takes_;
     ImGui::Separator();
     if (ui::menu_item("Pause", "Space", session_.paused())) session_.set_paused(!session_.paused());
     if (ui::menu_item("Restart", "R")) session_.restart();
@@ -223,46 +252,75 @@ void MainWindow::draw_menu() {
   ui::end_main_menu_bar();
 }
 
+namespace {
+
+bool begin_panel(const char* name, ImVec2 corner, ImVec2 size, ImGuiWindowFlags flags = 0) {
+  ImGui::SetNextWindowPos(corner);
+  ImGui::SetNextWindowSize(size);
+  return ui::begin_window(name, nullptr, kPanel | flags);
+}
+
+}  // namespace
+
 void MainWindow::draw_panels() {
   const ImGuiIO& io = ImGui::GetIO();
   const float em = ImGui::GetFontSize(), top = ImGui::GetFrameHeight();
-  const float left = show_panels_ ? std::floor(15 * em) : 0, right = show_panels_ ? std::floor(24 * em) : 0;
-  const float status = show_panels_ ? std::floor(2 * em) : 0, log = show_log_ && show_panels_ ? std::floor(9 * em) : 0;
-  const float chart = show_chart_ && show_panels_ ? std::floor(22 * em) : 0;
-  session_.want_truth(chart > 0 || (controls_.view().mode == ViewMode::Difference && controls_.view().against_truth));
-  const float height = io.DisplaySize.y - top - status;
-  const auto panel = [&](const char* name, float x, float y, float w, float h, ImGuiWindowFlags flags = 0) {
-    ImGui::SetNextWindowPos({x, y});
-    ImGui::SetNextWindowSize({w, h});
-    return ui::begin_window(name, nullptr, kPanel | flags);
-  };
+  const ViewState& view = controls_.view();
+  const auto rows = [&](bool shown, float height) { return shown && show_panels_ ? std::floor(height * em) : 0.0f; };
+  const float left = rows(true, 15), right = rows(true, 24), status = rows(true, 2), log = rows(show_log_, 9);
+  // Plots are not to take the picture's room in a small window.
+  const float plots = std::min(rows(show_chart_ || view.probing, 22), std::floor(0.36f * io.DisplaySize.y));
+  const float takes = rows(show_takes_ && !session_.takes().empty(), 7);
+  const bool chart = show_chart_ && show_panels_, probe = view.probing && show_panels_;
+  session_.want_truth(chart || (view.mode == ViewMode::Difference && view.against_truth));
+  session_.watch_pixel(probe ? std::optional(Session::PixelWish{view.shown, static_cast<double>(view.probe_x),
+                                                                static_cast<double>(view.probe_y)})
+                             : std::nullopt);
+  const float height = io.DisplaySize.y - top - status, width = io.DisplaySize.x - left - right;
 
   if (show_panels_) {
-    if (panel("Scene", 0, top, left, height)) {
+    if (begin_panel("Scene", {0, top}, {left, height})) {
       draw_outliner(session_, selected_);
       draw_variant_list(session_, selected_, edited_variant_);
     }
     ui::end_window();
-    if (panel("Inspector", io.DisplaySize.x - right, top, right, height)) draw_inspected();
+    if (begin_panel("Inspector", {io.DisplaySize.x - right, top}, {right, height})) draw_inspected();
     ui::end_window();
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em * 0.7f, std::floor((status - em) / 2)});
-    if (panel("Status", 0, top + height, io.DisplaySize.x, status, ImGuiWindowFlags_NoScrollbar))
+    if (begin_panel("Status", {0, top + height}, {io.DisplaySize.x, status}, ImGuiWindowFlags_NoScrollbar))
       draw_status_bar(session_, options_.measured);
     ui::end_window();
     ImGui::PopStyleVar();
   }
-  if (chart > 0) {
-    if (panel("Chart", left, top + height - log - chart, io.DisplaySize.x - left - right, chart))
-      if (chart_.draw(session_, options_.measured)) ask_export_chart();
+
+  // From the bottom upwards; what is left is the picture's.
+  float below = top + height;
+  if (log > 0) {
+    if (begin_panel("Log", {left, below -= log}, {width, log})) draw_log();
     ui::end_window();
   }
-  if (log > 0) {
-    if (panel("Log", left, top + height - log, io.DisplaySize.x - left - right, log)) draw_log();
+  if (takes > 0) {
+    if (begin_panel("Takes", {left, below -= takes}, {width, takes}, ImGuiWindowFlags_HorizontalScrollbar))
+      if (const auto exported = take_strip_.draw(session_)) ask_export_take(*exported);
     ui::end_window();
+  }
+  if (plots > 0) {
+    below -= plots;
+    const float of_chart = probe ? std::floor(0.44f * width) : width, of_probe = chart ? width - of_chart : width;
+    if (chart) {
+      if (begin_panel("Chart", {left, below}, {of_chart, plots}))
+        if (chart_.draw(session_, options_.measured)) ask_export_chart();
+      ui::end_window();
+    }
+    if (probe) {
+      if (begin_panel("Probe", {left + width - of_probe, below}, {of_probe, plots}))
+        draw_probe_panel(session_, view, options_.measured);
+      ui::end_window();
+    }
   }
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-  if (panel("View", left, top, io.DisplaySize.x - left - right, height - log - chart,
-            ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
+  if (begin_panel("View", {left, top}, {width, below - top},
+                  ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
     viewport_.draw(session_, controls_.view(), options_.measured);
   ui::end_window();
   ImGui::PopStyleVar();

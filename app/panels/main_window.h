@@ -5,6 +5,7 @@
 #include "app/panels/file_dialog.h"
 #include "app/panels/inspector.h"
 #include "app/panels/node_path.h"
+#include "app/panels/take_strip.h"
 #include "app/panels/view_controls.h"
 #include "app/panels/viewport.h"
 #include "app/session/session.h"
@@ -14,6 +15,7 @@ namespace brume {
 struct MainWindowOptions {
   bool measured = true;  ///< false leaves out what differs between runs, for pictures that tests compare
   bool chart = false;    ///< the chart is open from the beginning
+  bool probe = false;    ///< the middle of the picture is probed from the beginning
 };
 
 class MainWindow {
@@ -45,6 +47,8 @@ class MainWindow {
   void ask_save_as();
   void ask_export();
   void ask_export_chart();
+  void ask_export_take(std::size_t index);
+  void keep_take();
   void ask_file(const FileWish& wish);
   void save();
   void report(const Result<void>& done);
@@ -57,11 +61,12 @@ class MainWindow {
   MainWindowOptions options_;
   Viewport viewport_;
   ChartPanel chart_;
+  TakeStrip take_strip_;
   FileDialog dialog_;
   NodePath selected_;
   std::optional<std::size_t> edited_variant_;  // of the description's; none: the scene itself
   ViewControls controls_;
-  bool show_panels_ = true, show_chart_ = false, show_log_ = false, show_help_ = false;
+  bool show_panels_ = true, show_chart_ = false, show_takes_ = true, show_log_ = false, show_help_ = false;
   bool may_quit_ = false;
   std::function<void()> after_question_;
   bool opening_question_ = false;

@@ -105,6 +105,24 @@ void draw_difference_legend(const Session& session, const ViewState& view, doubl
   draw->AddText({corner.x + width - ImGui::CalcTextSize(high.c_str()).x, below}, plain_color(), high.c_str());
 }
 
+void draw_probe_mark(const ViewState& view, const PictureArea& area, bool chosen) {
+  if (!view.probing) return;
+  const float em = ImGui::GetFontSize(), inner = std::floor(0.35f * em), outer = std::floor(0.9f * em);
+  const ImVec2 at = area.to_screen(view, {view.probe_x, view.probe_y});
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->PushClipRect(area.min, area.max, true);
+  // A dark line under a bright one is seen on every ground.
+  const auto cross = [&](ImU32 color, float width) {
+    draw->AddLine({at.x - outer, at.y}, {at.x - inner, at.y}, color, width);
+    draw->AddLine({at.x + inner, at.y}, {at.x + outer, at.y}, color, width);
+    draw->AddLine({at.x, at.y - outer}, {at.x, at.y - inner}, color, width);
+    draw->AddLine({at.x, at.y + inner}, {at.x, at.y + outer}, color, width);
+  };
+  cross(IM_COL32(0, 0, 0, chosen ? 200 : 90), 3);
+  cross(IM_COL32(255, 255, 255, chosen ? 255 : 110), 1);
+  draw->PopClipRect();
+}
+
 void draw_messages(const Session& session, const PictureArea& area) {
   const float em = ImGui::GetFontSize();
   if (!session.problem().empty()) draw_plate(area, 2 * em, session.problem(), IM_COL32(255, 140, 115, 255));

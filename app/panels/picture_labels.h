@@ -25,6 +25,9 @@ void draw_variant_figures(const Session& session, std::size_t index, const Pictu
 /// Which pictures differ, and the colours with their values.
 void draw_difference_legend(const Session& session, const ViewState& view, double range, const PictureArea& area);
 
+/// A cross on the pixel that is probed, where one is.  @param chosen  in this picture, not at the same place of another
+void draw_probe_mark(const ViewState& view, const PictureArea& area, bool chosen);
+
 /// Problems, a pause, nothing to see, and what is under way.
 void draw_messages(const Session& session, const PictureArea& area);
 

@@ -27,6 +27,10 @@ struct ViewState {
   float zoom = 1;                          ///< at least 1: all of it
   float center_x = 0.5f, center_y = 0.5f;  ///< as fractions of the picture
 
+  // The pixel that is probed, of what is shown.
+  bool probing = false;
+  float probe_x = 0.5f, probe_y = 0.5f;  ///< as fractions of the picture
+
   /// Of two variants, or of one from the reference.
   void show_difference(bool from_truth) { mode = ViewMode::Difference, against_truth = from_truth; }
   /// Of so many pictures: what is not there is not shown, and nothing is compared with itself.

@@ -46,7 +46,13 @@ void Viewport::handle_mouse(Session& session, ViewState& view, const PictureArea
   const ImGuiIO& io = ImGui::GetIO();
   const double dx = io.MouseDelta.x, dy = io.MouseDelta.y;
   const auto move = [&](const auto& edit) { session.change([&](Node& d) { edit(d.child("camera")); }); };
-  if (ImGui::IsItemActive() && (dx != 0 || dy != 0) && !dragging_line_) {
+  // A click, whose mouse hardly moves, chooses the pixel that is probed and moves no camera.
+  const bool clicks = view.probing && !io.KeyCtrl && io.MouseDragMaxDistanceSqr[0] < 9;
+  if (clicks && ImGui::IsItemDeactivated() && io.MouseReleased[0] && !dragging_line_) {
+    const ImVec2 place = area.to_picture(view, io.MousePos);
+    view.probe_x = std::clamp(place.x, 0.0f, 1.0f), view.probe_y = std::clamp(place.y, 0.0f, 1.0f);
+  }
+  if (ImGui::IsItemActive() && (dx != 0 || dy != 0) && !dragging_line_ && !clicks) {
     constexpr double kRadiansPerPixel = 0.006;
     const double height = area.height();
     if (io.KeyCtrl) {
@@ -99,6 +105,8 @@ void Viewport::draw_tiles(Session& session, ViewState& view, const Room& room, b
     if (const auto p = session.picture(index)) draw_pixel_values(p->image, area, view);
     draw_variant_label(session, index, area.min.x, area);
     draw_variant_figures(session, index, area, measured);
+    if (ImGui::IsItemDeactivated()) view.shown = index;  // the last one touched is the one that is meant
+    draw_probe_mark(view, area, view.shown == index);
     if (!session.black_picture(index).empty()) draw_plate(area, area.height() / 2, session.black_picture(index));
   }
 }
@@ -171,6 +179,7 @@ void Viewport::draw(Session& session, ViewState& view, bool measured) {
     else
       draw_single(session, view, whole);
     handle_mouse(session, view, whole);
+    draw_probe_mark(view, whole, true);
     if (!session.black_picture(view.shown).empty() && session.problem().empty())
       draw_plate(whole, whole.height() / 2, session.black_picture(view.shown));
   }

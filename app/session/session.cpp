@@ -49,6 +49,8 @@ Session::Session(const SessionOptions& options)
       description_(empty_scene()),
       saved_(description_),
       live_(options.on_news),
+      pixel_watch_(options.on_news),
+      search_(options.on_news),
       engine_({.threads = options.threads, .on_picture = options.on_news}) {
   worker_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
 }
@@ -193,6 +195,50 @@ void Session::follow_errors() {
 }
 
 const std::string& Session::black_picture(std::size_t i) const { return examined_[i].black; }
+
+void Session::search_settings(double effort) {
+  search_.start(without_variants(description_), cache_, {options_.threads, options_.reference_folder, effort});
+}
+
+void Session::apply(const SweepVariant& variant) {
+  close_step();
+  change([&](Node& d) { d = with_variants_of(variant.description, d); });
+  close_step();
+}
+
+// --- One pixel
+
+void Session::follow_pixel() {
+  const auto p = watched_ ? picture(watched_->variant) : nullptr;
+  if (!p || watched_->variant >= shown_.size()) return pixel_watch_.want(nullptr, {}, 0);
+  const auto pixel = [](double fraction, int size) {
+    return std::clamp(static_cast<int>(fraction * size), 0, size - 1);
+  };
+  pixel_watch_.want(shown_[watched_->variant].scene,
+                    {pixel(watched_->x, p->width), pixel(watched_->y, p->height), p->width, p->height},
+                    p->statistics.samples_per_pixel);
+}
+
+// --- Takes
+
+void Session::keep_take(std::size_t variant) {
+  const auto p = picture(variant);
+  if (!p || variant >= shown_.size()) return;
+  std::string name = title();
+  if (shown_.size() > 1) name += ", " + shown_[variant].variant.name;
+  takes_.push_back({++takes_kept_, std::move(name), description_, p});
+}
+
+void Session::restore_take(std::size_t index) {
+  if (index >= takes_.size()) return;
+  close_step();
+  change([&](Node& d) { d = takes_[index].description; });
+  close_step();
+}
+
+void Session::remove_take(std::size_t index) {
+  if (index < takes_.size()) takes_.erase(takes_.begin() + static_cast<std::ptrdiff_t>(index));
+}
 
 // --- What goes on
 
@@ -375,6 +421,7 @@ void Session::update() {
   engine_.set_share(description_.child("compare").text("share") == "equal_time" ? Share::EqualTime
                                                                                 : Share::EqualSamples);
   follow_errors();
+  follow_pixel();
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     const auto p = picture(i);
     if (!p || p == examined_[i].picture || p->generation != shown_[i].scene->generation) continue;

@@ -7,6 +7,9 @@
 #include <optional>
 #include <string>
 
+#include "app/session/pixel_watch.h"
+#include "app/session/settings_search.h"
+#include "app/session/take.h"
 #include "app/session/truth.h"
 #include "renderer/engine/engine.h"
 #include "renderer/experiments/live_sweep.h"
@@ -101,6 +104,34 @@ class Session {
   /// Errors of what is rendered, so far.
   std::shared_ptr<const Sweep> errors() const { return live_.sweep(); }
 
+  /// Looks for the cheapest settings of the scene as it is.  @param effort  share of the usual time
+  void search_settings(double effort = 1);
+  SettingsSearch& search() { return search_; }
+  const SettingsSearch& search() const { return search_; }
+  /// The scene gets the settings of a variant of a sweep; a step of the history.
+  void apply(const SweepVariant& variant);
+
+  // --- One pixel
+
+  /// A place of a picture, as fractions of its width and height.
+  struct PixelWish {
+    std::size_t variant;  ///< of shown()
+    double x, y;
+  };
+  /// Which pixel is probed, as its picture gets better; nothing: none is. As often as one likes.
+  void watch_pixel(const std::optional<PixelWish>& wish) { watched_ = wish; }
+  /// Of that pixel; null while there is none.
+  std::shared_ptr<const PixelProbe> probe() const { return watched_ ? pixel_watch_.probe() : nullptr; }
+
+  // --- Takes
+
+  /// Keeps a picture with the document as it is.
+  void keep_take(std::size_t variant);
+  const std::vector<Take>& takes() const { return takes_; }
+  /// The document becomes what it was; a step of the history.
+  void restore_take(std::size_t index);
+  void remove_take(std::size_t index);
+
   // --- What goes on
 
   struct Activity {
@@ -139,6 +170,7 @@ class Session {
   void submit(bool restart = false);
   void find_truth_again();
   void follow_errors();
+  void follow_pixel();
 
   SessionOptions options_;
   Node description_;
@@ -158,9 +190,14 @@ class Session {
   std::map<std::string, std::vector<GridInfo>> grid_infos_;
 
   Truth truth_;
+  std::optional<PixelWish> watched_;
+  std::vector<Take> takes_;
+  int takes_kept_ = 0;
 
   SceneCache cache_;
   LiveSweep live_;
+  PixelWatch pixel_watch_;
+  SettingsSearch search_;
   Engine engine_;
 
   mutable std::mutex mutex_;  // guards what follows

@@ -1,6 +1,7 @@
 // The metrics by name: what commands, charts and panels can measure.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,14 +9,20 @@
 
 namespace brume {
 
+/// At which exposures people look at pictures, stops; only metrics of what is seen ask.
+struct Viewing {
+  float exposure = 0;                                            ///< of flip
+  std::optional<float> start_exposure = {}, stop_exposure = {};  ///< of hdr_flip, as HdrFlipSettings
+};
+
 /// One number for the difference of two pictures.
 struct Metric {
   std::string key;    ///< "rmse"
   std::string label;  ///< "RMSE"
   std::string unit;   ///< "" where it has none
   std::string doc;    ///< one sentence
-  /// @param test, reference  scene-linear.  @param exposure  stops, for what is seen at one: flip; others do not look
-  Result<double> (*measure)(const Image& test, const Image& reference, float exposure);
+  /// @param test, reference  scene-linear
+  Result<double> (*measure)(const Image& test, const Image& reference, const Viewing& viewing);
 };
 
 /// rmse, relative_mse, mean_bias, relative_mean_bias, median_of_tiles, flip, hdr_flip.

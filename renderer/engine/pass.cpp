@@ -61,19 +61,18 @@ std::optional<int> for_each_pixel(const Grid& grid, WorkerPool& pool, const Canc
   return end.tile();
 }
 
-/// The pass's sample of the pixel (x, y) of a picture of width x height.
-Color sample_pixel(const Scene& scene, const Integrator& integrator, const Grid& grid, int x, int y,
-                   const Sampler& pass, Worker& worker) {
-  const Sampler sampler = pass.of_pixel(x, y, grid.width);
+}  // namespace
+
+Color sample_pixel(const Scene& scene, const Integrator& integrator, const PixelPlace& place, const Sampler& pass,
+                   Arena& arena, RayStatistics& statistics, RayDiagnostics* diagnostics) {
+  const Sampler sampler = pass.of_pixel(place.x, place.y, place.width);
   const Vec2 inside = sampler.u2(Decision::Pixel);
-  const float width = static_cast<float>(grid.width), height = static_cast<float>(grid.height);
-  const Ray ray = scene.camera.ray((static_cast<float>(x) + inside.x) / width,
-                                   (static_cast<float>(y) + inside.y) / height, width / height);
-  SampleContext context{scene, sampler, worker.arena, worker.statistics};
+  const float width = static_cast<float>(place.width), height = static_cast<float>(place.height);
+  const Ray ray = scene.camera.ray((static_cast<float>(place.x) + inside.x) / width,
+                                   (static_cast<float>(place.y) + inside.y) / height, width / height);
+  SampleContext context{scene, sampler, arena, statistics, diagnostics};
   return integrator.radiance(ray, context);
 }
-
-}  // namespace
 
 int tile_count(int width, int height) {
   const Grid grid{width, height};
@@ -86,10 +85,11 @@ std::optional<int> render_pass(const Scene& scene, const Integrator& integrator,
   const Sampler pass(scene.render.sampler, scene.render.seed, 0, sample);
   const Sampler twin_pass(scene.render.sampler, scene.render.seed ^ kTwinSeed, 0, sample);
   return for_each_pixel(grid, pool, cancelled, tiles, enough, [&](int x, int y, Worker& worker) {
-    if (!film.add_sample(x, y, sample_pixel(scene, integrator, grid, x, y, pass, worker)))
-      ++worker.statistics.non_finite;
-    if (Film::has_twin(x, y))
-      film.add_twin_sample(x, y, sample_pixel(scene, integrator, grid, x, y, twin_pass, worker));
+    const auto one = [&](const Sampler& numbers) {
+      return sample_pixel(scene, integrator, {x, y, grid.width, grid.height}, numbers, worker.arena, worker.statistics);
+    };
+    if (!film.add_sample(x, y, one(pass))) ++worker.statistics.non_finite;
+    if (Film::has_twin(x, y)) film.add_twin_sample(x, y, one(twin_pass));
   });
 }
 
@@ -99,7 +99,8 @@ bool render_coarse(const Scene& scene, const Integrator& integrator, int width, 
   const Sampler pass(scene.render.sampler, scene.render.seed, 0, 0);
   image = Image(grid.width, grid.height);
   const auto end = for_each_pixel(grid, pool, cancelled, {}, {}, [&](int x, int y, Worker& worker) {
-    const Color c = sample_pixel(scene, integrator, grid, x, y, pass, worker);
+    const Color c =
+        sample_pixel(scene, integrator, {x, y, grid.width, grid.height}, pass, worker.arena, worker.statistics);
     if (is_finite(c))
       image.at(x, y) = c;
     else

@@ -17,6 +17,18 @@ inline constexpr int kTileSize = 32;
 /// Asked once per row of a tile, from every worker; true gives the pass up.
 using Cancelled = std::function<bool()>;
 
+/// A pixel of a picture of width x height.
+struct PixelPlace {
+  int x, y, width, height;
+
+  bool operator==(const PixelPlace&) const = default;
+};
+
+/// One sample of a pixel, the same that render_pass() adds to a film.
+/// @param pass  of sample number n: Sampler(scene.render.sampler, scene.render.seed, 0, n)
+Color sample_pixel(const Scene& scene, const Integrator& integrator, const PixelPlace& place, const Sampler& pass,
+                   Arena& arena, RayStatistics& statistics, RayDiagnostics* diagnostics = nullptr);
+
 /// Some of a picture's tiles, which are numbered by rows.
 struct TileRange {
   int first = 0, end = 1 << 30;  ///< beyond the last tile: up to it

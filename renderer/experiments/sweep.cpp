@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "renderer/engine/survey.h"
 #include "renderer/integrators/registry.h"
 
 namespace brume {
@@ -52,6 +53,33 @@ Result<std::vector<SweepVariant>> swept(const std::vector<SweepVariant>& variant
     }
   }
   if (!found && missing) return *missing;
+  return all;
+}
+
+Result<std::vector<SweepVariant>> settings_to_search(const Node& scene, SceneCache& cache) {
+  std::vector<SweepVariant> all;
+  for (SweepVariant& method : all_methods(scene)) {
+    std::vector<SweepVariant> of_method{std::move(method)};
+    Node& description = of_method.front().description;
+    const bool is_decoupled = description.child("render").kind() == "decoupled";
+    if (find_param(description, "render.step_size")) {
+      static_cast<void>(set_by_path(description, "render.step_size", "auto").ok());
+      const auto committed = commit(description, cache, {});
+      if (!committed) return committed.error();
+      std::vector<std::string> steps;
+      for (const double factor : {0.5, 1.0, 2.0, 4.0})
+        steps.push_back(short_number(factor * static_cast<double>((*committed)->step_size)));
+      auto more = swept(of_method, "render.step_size", steps);
+      if (!more) return more.error();
+      of_method = std::move(*more);
+    }
+    if (is_decoupled) {
+      auto more = swept(of_method, "render.light_samples", {"1", "2", "4", "8"});
+      if (!more) return more.error();
+      of_method = std::move(*more);
+    }
+    all.insert(all.end(), of_method.begin(), of_method.end());
+  }
   return all;
 }
 

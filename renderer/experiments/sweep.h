@@ -33,6 +33,10 @@ std::vector<SweepVariant> all_methods(const Node& scene);
 Result<std::vector<SweepVariant>> swept(const std::vector<SweepVariant>& variants, const std::string& path,
                                         const std::vector<std::string>& values);
 
+/// What is worth trying on a scene: all methods, those that march at a half, 1, 2 and 4 of the steps that they take by
+/// default, the decoupled ones with 1, 2, 4 and 8 samples of each light.  Errors: the scene cannot be committed.
+Result<std::vector<SweepVariant>> settings_to_search(const Node& scene, SceneCache& cache);
+
 // ---- Measuring ------------------------------------------------------------------------------------------------------
 
 /// One look at a picture that is being rendered.

@@ -75,7 +75,42 @@ std::optional<double> fitted_exponent(const std::vector<std::array<double, 2>>& 
   return (n * sxy - sx * sy) / spread;
 }
 
+std::optional<double> error_floor(const std::vector<std::array<double, 2>>& points) {
+  constexpr std::size_t kFewest = 6;
+  if (points.size() < kFewest) return std::nullopt;
+  double w = 0, wx = 0, wxx = 0, wy = 0, wxy = 0;
+  for (std::size_t i = points.size() / 2; i < points.size(); ++i) {
+    const auto& [t, e] = points[i];
+    if (!(t > 0) || !(e > 0)) return std::nullopt;
+    const double weight = 1 / (e * e * e * e), x = 1 / t, y = e * e;
+    w += weight, wx += weight * x, wxx += weight * x * x, wy += weight * y, wxy += weight * x * y;
+  }
+  const double spread = w * wxx - wx * wx;
+  if (!(spread > 0)) return std::nullopt;
+  const double floor = std::sqrt(std::max(0.0, (wxx * wy - wx * wxy) / spread));
+  constexpr double kFlat = 0.8;
+  if (!(floor >= kFlat * points.back()[1])) return std::nullopt;
+  return floor;
+}
+
 namespace {
+
+/// A dashed line at the floor of each line that has one, over the times of its later half.
+void add_floors(Chart& chart) {
+  const std::size_t lines = chart.series.size();
+  bool named = false;
+  for (std::size_t i = 0; i < lines; ++i) {
+    const auto floor = error_floor(chart.series[i].points);
+    if (!floor) continue;
+    const auto& points = chart.series[i].points;
+    chart.series.push_back({.name = named ? "" : "floor where a line flattens",
+                            .color = chart.series[i].color,
+                            .points = {{points[points.size() / 2][0], *floor}, {points.back()[0], *floor}},
+                            .line = LineStyle::Dashed,
+                            .markers = false});
+    named = true;
+  }
+}
 
 /// "ray_march: n^1.98", of the upper half of the points: below it, what does not depend on the steps counts most.
 void name_exponent(Series& series) {
@@ -134,6 +169,7 @@ Chart chart_of(const Sweep& sweep, const SweepAxis& x, const SweepAxis& y, const
       const bool squared = y.key == "relative_mse";
       chart.guides.push_back({squared ? "t^-1" : "t^-1/2", squared ? -1.0 : -0.5, *from});
     }
+  if (x.key == "cpu_seconds" && y.key.starts_with("rmse")) add_floors(chart);
   if (y.key.starts_with("rmse") && sweep.references.size() == 1 && sweep.references[0].variance > 0)
     chart.levels.push_back({"error of the reference itself", std::sqrt(sweep.references[0].variance), {140, 140, 140}});
   return chart;
@@ -176,6 +212,25 @@ void add_front(const Sweep& sweep, const SweepAxis& error, std::optional<double>
   if (target) chart.levels.push_back({"target", *target, kFront});
   if (const auto best = best_row(sweep, error, target))
     chart.marks.push_back({sweep.variants[sweep.rows[*best].variant].name, point(*best), kFront});
+}
+
+Chart pareto_chart(const Sweep& sweep, const SweepAxis& error) {
+  Chart chart;
+  const SweepAxis& time = *find_sweep_axis("cpu_seconds");
+  chart.x = {.label = time.label, .logarithmic = true};
+  chart.y = {.label = error.label, .logarithmic = true, .percent = error.key == "relative_mean_bias"};
+  for (const SweepRow& row : sweep.rows) {
+    const std::string& name = sweep.variants[row.variant].series;
+    auto found =
+        std::find_if(chart.series.begin(), chart.series.end(), [&](const Series& s) { return s.name == name; });
+    if (found == chart.series.end()) {
+      chart.series.push_back({.name = name, .color = series_color(chart.series.size()), .line = LineStyle::None});
+      found = chart.series.end() - 1;
+    }
+    found->points.push_back({time.value(sweep, row), error.value(sweep, row)});
+  }
+  add_front(sweep, error, {}, chart);
+  return chart;
 }
 
 std::string csv_of(const Sweep& sweep) {

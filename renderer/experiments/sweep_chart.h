@@ -28,10 +28,16 @@ const std::vector<SweepAxis>& sweep_axes();
 const SweepAxis* find_sweep_axis(const std::string& key);
 std::vector<std::string> sweep_axis_keys();
 
+/// What an error comes to in the end: sqrt(b) of e^2 = a / t + b, fitted to the later half of the points (weights
+/// 1 / e^4). Nothing while the line still falls: where the floor is less than 0.8 of the last error, or points are
+/// fewer than six.
+/// @param points  (time, error), both above 0, in the order of time
+std::optional<double> error_floor(const std::vector<std::array<double, 2>>& points);
+
 /// y against x, both logarithmic where all values are above 0: a line for each variant along its rows, or, where x is
 /// a setting, for each series along its variants, which have their last rows. Errors have a guide of slope -1/2 against
-/// time and the reference's own error as a level; costs against steps have the exponent fitted to the upper half of
-/// each line in its name.
+/// time, the floor of each line that flattens, and the reference's own error as a level; costs against steps have the
+/// exponent fitted to the upper half of each line in its name.
 Chart chart_of(const Sweep& sweep, const SweepAxis& x, const SweepAxis& y, const std::string& title);
 
 /// Least-squares slope of log y over log x; nothing for fewer than two points above 0 at different x.
@@ -44,6 +50,9 @@ std::vector<std::size_t> pareto_front(const Sweep& sweep, const SweepAxis& error
 /// The row of the front to choose: the first whose error is at most the target, or without a target within a tenth of
 /// the least: who needs no more should not pay for more. Nothing when no row is good enough.
 std::optional<std::size_t> best_row(const Sweep& sweep, const SweepAxis& error, std::optional<double> target);
+
+/// All rows as points, error against time: those of one series, a method, in one colour. With the front.
+Chart pareto_chart(const Sweep& sweep, const SweepAxis& error);
 
 /// The front as a dashed line and the best row as a mark.
 void add_front(const Sweep& sweep, const SweepAxis& error, std::optional<double> target, Chart& chart);

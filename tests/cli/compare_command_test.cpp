@@ -77,6 +77,19 @@ TEST_F(CompareCommand, HdrFlipNeedsNoExposure) {
   EXPECT_EQ(value("flip", "--exposure=4"), 0);  // both white
 }
 
+TEST_F(CompareCommand, HdrFlipTakesARangeOfExposures) {
+  const auto value = [&](const std::vector<std::string>& range) {
+    std::vector<std::string> args{"compare", "test.exr", "reference.exr", "--json", "--metric", "hdr_flip"};
+    args.insert(args.end(), range.begin(), range.end());
+    const Outcome o = run(args);
+    return o.exit_code == 0 ? nlohmann::json::parse(o.out)["hdr_flip"].get<double>() : -1;
+  };
+  EXPECT_LT(value({"--start-exposure=-14", "--stop-exposure=-12"}), 0.2 * value({})) << "almost black";
+  EXPECT_GT(value({"--start-exposure=-14", "--stop-exposure=0"}), 0.01);
+  expect_refused({"compare", "test.exr", "reference.exr", "--start-exposure", "2", "--stop-exposure", "1"},
+                 "--stop-exposure: found 1, expected more than --start-exposure, which is 2");
+}
+
 TEST_F(CompareCommand, DrawsTheDifference) {
   ASSERT_EQ(run({"compare", "test.exr", "reference.exr", "-o", "difference.png"}).exit_code, 0);
   const auto difference = read_png(path("difference.png"));

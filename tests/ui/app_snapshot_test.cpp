@@ -118,6 +118,18 @@ TEST_F(AppSnapshot, BlackPictureExplained) {
   EXPECT_TRUE(looks_like("black_explained"));
 }
 
+TEST_F(AppSnapshot, ProbeAndTakes) {
+  start(scene_path("smoke.json"), 4);
+  robot().press_key(ui::Key::T);
+  session().change([](Node& d) { ASSERT_TRUE(d.list("volumes")[0].set("density_scale", 8.0).ok()); });
+  settle();
+  robot().press_key(ui::Key::T);
+  robot().press_key(ui::Key::P);
+  robot().frames(2);
+  settle();
+  EXPECT_TRUE(looks_like("probe_and_takes"));
+}
+
 TEST_F(AppSnapshot, FourVariantsAsTiles) {
   start(scene_path("smoke.json"), 4);
   make_variants({{}, {"render.bounces", "0"}, {"render.distance_sampling", "density"}, {"render.bounces", "3"}});

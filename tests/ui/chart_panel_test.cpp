@@ -158,5 +158,40 @@ TEST_F(ChartPanelTest, TheBestVariantsSettingsAreGivenToTheScene) {
   EXPECT_EQ(session().description().child("compare").list("variants").size(), 2u) << "what is compared stays";
 }
 
+TEST_F(ChartPanelTest, ASearchFindsSettingsThatAClickApplies) {
+  start(scene_path("smoke.json"), kEndless, 1280, 800);
+  robot().press_key(ui::Key::C);
+  robot().frames(2);
+  ASSERT_TRUE(done(robot().click("Chart/Search...")));
+  ASSERT_TRUE(robot().exists("Chart/Stop"));
+  ASSERT_TRUE(done(robot().click("Chart/Stop")));
+  const auto wait = [&] {
+    for (int i = 0; i < 20000 && session().search().progress(); ++i) {
+      robot().frames(1);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  };
+  wait();
+  EXPECT_FALSE(session().search().found()) << "it was given up";
+  EXPECT_EQ(session().search().problem(), "");
+
+  session().search_settings(0.005);
+  wait();
+  robot().frames(2);
+  const auto found = session().search().found();
+  ASSERT_TRUE(found);
+  // Four modes x four steps x four numbers of light samples, three that march, three that do not.
+  EXPECT_EQ(found->variants.size(), 64u + 3 * 4 + 3);
+  ASSERT_TRUE(robot().exists("Chart/Found"));
+  const auto best = best_row(*found, *find_sweep_axis("rmse_net"), {});
+  ASSERT_TRUE(best);
+  const Node settings = found->variants[found->rows[*best].variant].description;
+  ASSERT_TRUE(done(robot().click("Chart/Apply best")));
+  EXPECT_EQ(render().kind(), settings.child("render").kind());
+  EXPECT_EQ(render(), settings.child("render"));
+  ASSERT_TRUE(done(robot().click("Chart/Found")));
+  EXPECT_FALSE(robot().exists("Chart/Apply best")) << "what is rendered is seen again";
+}
+
 }  // namespace
 }  // namespace brume

@@ -102,6 +102,27 @@ TEST(SweepChart, TheReferencesNoiseIsTakenOutAndShown) {
   EXPECT_NEAR(chart.levels[0].y, 0.4, 1e-12);
 }
 
+TEST(SweepChart, ALineThatFlattensHasAFloor) {
+  const auto line = [](const std::function<double(double)>& error) {
+    std::vector<std::array<double, 2>> points;
+    for (double t = 0.1; t < 200; t *= 1.6) points.push_back({t, error(t)});
+    return points;
+  };
+  const auto flat = line([](double t) { return std::sqrt(0.04 / t + 0.1 * 0.1); });
+  EXPECT_NEAR(*error_floor(flat), 0.1, 1e-9);
+  EXPECT_FALSE(error_floor(line([](double t) { return 0.2 / std::sqrt(t); }))) << "pure noise";
+  EXPECT_FALSE(error_floor(line([](double t) { return 0.2 / t; }))) << "noise of a sequence";
+  EXPECT_FALSE(error_floor({flat.begin(), flat.begin() + 5})) << "too few";
+  EXPECT_FALSE(error_floor({flat.begin(), flat.begin() + 8})) << "still falling";
+
+  Sweep sweep = made_up({1}, {{0.5, 0.4, 0.3, 0.26, 0.25, 0.25, 0.25, 0.25}});
+  const Chart chart = chart_of(sweep, axis("cpu_seconds"), axis("rmse"), "");
+  ASSERT_EQ(chart.series.size(), 2u);
+  EXPECT_EQ(chart.series[1].color, chart.series[0].color);
+  EXPECT_EQ(chart.series[1].line, LineStyle::Dashed);
+  EXPECT_NEAR(chart.series[1].points[0][1], 0.25, 0.005);
+}
+
 TEST(SweepChart, NumbersOfTheChartAreThoseOfTheTable) {
   const Sweep sweep = made_up({0.1, 0.7}, {{1.0 / 3, 0.25}, {0.7, 2.0 / 7}});
   std::istringstream csv(csv_of(sweep));
