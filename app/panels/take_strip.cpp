@@ -66,8 +66,9 @@ std::optional<std::size_t> TakeStrip::draw(Session& session) {
     const ImVec2 size(std::floor(height * small.aspect), height);
     ui::canvas(name.c_str(), size);
     const bool hovered = ImGui::IsItemHovered();
-    if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left)) session.restore_take(i);
-    if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) ui::open_popup(name.c_str());
+    const bool clicked = hovered && ImGui::IsItemDeactivated();  // pressed and released here
+    if (clicked && ImGui::IsMouseReleased(ImGuiMouseButton_Left)) session.restore_take(i);
+    if (clicked && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) ui::open_popup(name.c_str());
     ui::tooltip_on_hover(told(take));
     small.texture.draw({corner, {corner.x + size.x, corner.y + size.y}}, {});
     ImDrawList* draw = ImGui::GetWindowDrawList();

@@ -105,7 +105,7 @@ void Viewport::draw_tiles(Session& session, ViewState& view, const Room& room, b
     if (const auto p = session.picture(index)) draw_pixel_values(p->image, area, view);
     draw_variant_label(session, index, area.min.x, area);
     draw_variant_figures(session, index, area, measured);
-    if (ImGui::IsItemDeactivated()) view.shown = index;  // the last one touched is the one that is meant
+    if (view.probing && ImGui::IsItemDeactivated()) view.shown = index;
     draw_probe_mark(view, area, view.shown == index);
     if (!session.black_picture(index).empty()) draw_plate(area, area.height() / 2, session.black_picture(index));
   }

@@ -19,6 +19,23 @@ template <int C> struct LightSampling {
   MarchedShadows<C>& shadows;
   DensitySampling<C> density{record, PlaceInSegment::LookedUp};
 
+  /// Equi-angular sampling about the last point that was asked for: a point light has no other, and its angles are
+  /// dear.
+  struct About {
+    LightPoint point;
+    std::optional<EquiangularSampling<C>> sampling;  // none: the point does not light the record
+  };
+  mutable std::optional<About> about_last = {};
+
+  const std::optional<EquiangularSampling<C>>& about(const Light& light, const LightPoint& point) const {
+    if (!about_last || about_last->point != point) {
+      const Interval lit = lit_part(light, point);
+      about_last.emplace(About{point, {}});
+      if (!lit.empty()) about_last->sampling.emplace(record, ray, point.position, lit);
+    }
+    return about_last->sampling;
+  }
+
   /// sigma_s T L_scattered at a point of the ray, whose shadow is left to be seen: the integrand of single scattering
   /// over the densities of the light direction, times `factor`, which holds what divides it.
   void carry(const Light& light, const IncomingLight& in, const RayPoint<C>& at, DistanceTechnique drawn_by,
@@ -63,8 +80,8 @@ template <int C> struct LightSampling {
     if (is_black(in.scattered)) return;
     float weight = 1;
     if (combined) {
-      const Interval lit = lit_part(light, in.point);
-      const float other = lit.empty() ? 0 : EquiangularSampling<C>(record, ray, in.point.position, lit).pdf(at);
+      const auto& equiangular = about(light, in.point);
+      const float other = equiangular ? equiangular->pdf(at) : 0;
       weight = mis_weight(context.scene.render.mis_heuristic, pdf * in.pdf_ratio, other);
     }
     carry(light, in, at, drawn_by, factor * weight / pdf, numbers, k);
@@ -73,14 +90,13 @@ template <int C> struct LightSampling {
   /// @param u  of the distance
   void by_equiangular(const Light& light, const LightPoint& point, float u, float factor, const LightNumbers& numbers,
                       int k, bool combined) const {
-    const Interval lit = lit_part(light, point);
-    if (lit.empty()) return;
+    const auto& equiangular = about(light, point);
+    if (!equiangular) return;
     const ArenaScope scope(context.arena);
-    const EquiangularSampling<C> equiangular(record, ray, point.position, lit);
-    auto [at, pdf] = equiangular.sample(u);
+    auto [at, pdf] = equiangular->sample(u);
     if (!(pdf > 0)) return;
     const LightTechnique<C> technique(light, context, bounce, numbers.index(k));
-    const PhaseMixture<C> phase = equiangular.is_between(at) ? phase_between(at) : phase_at(at);
+    const PhaseMixture<C> phase = equiangular->is_between(at) ? phase_between(at) : phase_at(at);
     const IncomingLight in = technique.towards(point, ray.at(at.t), phase);
     if (is_black(in.scattered)) return;
     const float weight =
@@ -149,6 +165,7 @@ template <int C> struct LightSampling {
     const int samples = numbers.count();
     const auto pivot = mode == DistanceSampling::Product ? light.pivot() : std::nullopt;
     if (pivot) return by_product(light, *pivot, weight, numbers);
+    about_last.reset();
     const LightPoint::Kind kind = light.sample_point(numbers.point(0)).kind;  // all points of a light are of one kind
     const bool distant = kind != LightPoint::Kind::Finite;
     const bool combined = mode == DistanceSampling::Mis && !distant;
