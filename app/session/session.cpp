@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <set>
 
-#include "app/session/load_scene.h"
 #include "renderer/engine/black_picture.h"
 #include "renderer/film/display_transform.h"
 #include "renderer/film/image_io.h"
@@ -16,8 +15,6 @@
 namespace brume {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::size_t kMaxHistory = 500;  // steps; a description is a few kilobytes
 constexpr std::size_t kMaxMessages = 500;
 
@@ -27,35 +24,15 @@ Node empty_scene() { return Node(*scene_family().tables.front()); }
 
 }  // namespace
 
-/// What the worker is asked for: to open a file, or to commit a description.
-struct Session::Wish {
-  std::string open = {};  // path; empty: commit `description`
-  std::optional<Node> description = {};
-  std::optional<TruthKey> truth = {};  // a reference is wanted: what is known of it,
-  int width = 0, height = 0;           // and the size that it must have
-};
-
-struct Session::Outcome {
-  Wish wish;
-  std::optional<LoadedScene> loaded;  // of a wish to open
-  std::vector<Shown> shown;           // empty: see error
-  std::optional<FoundTruth> truth;
-  std::optional<Error> error;
-  std::map<std::string, std::vector<GridInfo>> grid_infos;
-};
-
 Session::Session(const SessionOptions& options)
     : options_(options),
       description_(empty_scene()),
       saved_(description_),
+      worker_(options.reference_folder, options.on_news),
       live_(options.on_news),
       pixel_watch_(options.on_news),
       search_(options.on_news),
-      engine_({.threads = options.threads, .on_picture = options.on_news}) {
-  worker_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
-}
-
-Session::~Session() { cancel_work_.request_stop(); }
+      engine_({.threads = options.threads, .on_picture = options.on_news}) {}
 
 // --- The document
 
@@ -197,7 +174,7 @@ void Session::follow_errors() {
 const std::string& Session::black_picture(std::size_t i) const { return examined_[i].black; }
 
 void Session::search_settings(double effort) {
-  search_.start(without_variants(description_), cache_, {options_.threads, options_.reference_folder, effort});
+  search_.start(without_variants(description_), worker_.cache(), {options_.threads, options_.reference_folder, effort});
 }
 
 void Session::apply(const SweepVariant& variant) {
@@ -253,20 +230,10 @@ const std::vector<GridInfo>& Session::grids_of(const std::string& path) const {
   return found == grid_infos_.end() ? none : found->second;
 }
 
-std::optional<Session::Activity> Session::activity() const {
-  const std::lock_guard lock(mutex_);
-  if (working_on_.empty()) return std::nullopt;
-  return Activity{working_on_, progress_, std::chrono::duration<double>(Clock::now() - work_began_).count()};
-}
-
-void Session::cancel_activity() {
-  const std::lock_guard lock(mutex_);
-  cancel_work_.request_stop();
-}
-
-bool Session::idle() const {
-  const std::lock_guard lock(mutex_);
-  return !wish_ && !outcome_ && working_on_.empty();
+void Session::request(SceneWish wish) {
+  if (truth_.wanted()) wish.truth = truth_.key();
+  wish.width = width_, wish.height = height_;
+  worker_.request(std::move(wish));
 }
 
 bool Session::up_to_date() const {
@@ -285,95 +252,7 @@ bool Session::finished() const {
   return true;
 }
 
-void Session::request(Wish wish) {
-  if (truth_.wanted()) wish.truth = truth_.key();
-  wish.width = width_, wish.height = height_;
-  const std::lock_guard lock(mutex_);
-  // A newer edit supersedes a commit under way, but an edit made while a file is being opened waits for nothing: the
-  // file will replace the document.
-  const bool opening = wish_ && !wish_->open.empty();
-  if (opening && wish.open.empty()) return;
-  wish_ = std::make_unique<Wish>(std::move(wish));
-  wished_.notify_all();
-}
-
-void Session::serve(const std::stop_token& stop) {
-  while (true) {
-    Wish wish;
-    std::stop_token cancel;
-    {
-      std::unique_lock lock(mutex_);
-      if (!wished_.wait(lock, stop, [&] { return wish_ && !outcome_; })) return;
-      wish = std::move(*wish_);
-      wish_.reset();
-      working_on_ = wish.open.empty() ? "Preparing the scene" : "Reading " + file_name(wish.open);
-      work_began_ = Clock::now();
-      progress_ = 0;
-      cancel_work_ = {};
-      cancel = cancel_work_.get_token();
-    }
-    Outcome outcome = fulfil(wish, cancel);
-    {
-      const std::lock_guard lock(mutex_);
-      working_on_.clear();
-      outcome_ = std::make_unique<Outcome>(std::move(outcome));
-    }
-    if (options_.on_news) options_.on_news();
-  }
-}
-
-Session::Outcome Session::fulfil(const Wish& wish, const std::stop_token& cancel) {
-  Outcome out;
-  out.wish = wish;
-  const auto progress = [this](float p) { progress_ = p; };
-  if (!wish.open.empty()) {
-    auto loaded = load_scene(wish.open, cache_, {.progress = progress, .cancel = cancel});
-    if (!loaded) {
-      out.error = loaded.error();
-      return out;
-    }
-    out.loaded = std::move(*loaded);
-  }
-  const Node& description = out.loaded ? out.loaded->description : *wish.description;
-  for (const Node& volume : description.list("volumes")) {
-    if (!volume.table().find("file") || volume.text("file").empty()) continue;
-    if (auto infos = list_grids(volume.text("file"), false)) out.grid_infos[volume.text("file")] = std::move(*infos);
-  }
-  auto committed = commit_variants(description, {.progress = progress, .cancel = cancel});
-  if (!committed) {
-    out.error = committed.error();
-    return out;
-  }
-  out.shown = last_committed_ = std::move(*committed);
-  if (wish.truth && wish.width > 0)
-    out.truth = truth_finder_.find(description, cache_, options_.reference_folder, wish.width, wish.height, ++commits_,
-                                   *wish.truth);
-  return out;
-}
-
-Result<std::vector<Session::Shown>> Session::commit_variants(const Node& description, CommitOptions options) {
-  auto variants = variants_of(description);
-  if (!variants) return variants.error();
-  std::vector<Shown> committed;
-  for (Variant& v : *variants) {
-    // What an edit has not touched goes on as it is: its picture keeps its samples.
-    const auto same = std::find_if(last_committed_.begin(), last_committed_.end(), [&](const Shown& s) {
-      return node_difference(s.variant.description, v.description).value_or(Affects::Display) == Affects::Display;
-    });
-    if (same != last_committed_.end()) {
-      committed.push_back({std::move(v), same->scene});
-      continue;
-    }
-    // One of its own for each: a picture is known by it, whatever its place among the others has been.
-    options.generation = ++commits_;
-    auto scene = commit(v.description, cache_, options);
-    if (!scene) return variants->size() > 1 ? under("compare.variants." + v.name, scene.error()) : scene.error();
-    committed.push_back({std::move(v), std::move(*scene)});
-  }
-  return committed;
-}
-
-void Session::take(Outcome outcome) {
+void Session::take(SceneOutcome outcome) {
   for (auto& [path, infos] : outcome.grid_infos) grid_infos_[path] = std::move(infos);
   if (outcome.loaded) {
     description_ = outcome.loaded->description;
@@ -406,18 +285,12 @@ void Session::take(Outcome outcome) {
     live_.set_reference(truth_.reference());
     if (!truth_.problem().empty()) say(LogLevel::Error, truth_.problem());
   }
-  cache_.drop_unused();
+  worker_.cache().drop_unused();
   submit();
 }
 
 void Session::update() {
-  std::unique_ptr<Outcome> outcome;
-  {
-    const std::lock_guard lock(mutex_);
-    outcome = std::move(outcome_);
-    if (outcome && wish_) wished_.notify_all();
-  }
-  if (outcome) take(std::move(*outcome));
+  if (auto outcome = worker_.take()) take(std::move(*outcome));
   engine_.set_share(description_.child("compare").text("share") == "equal_time" ? Share::EqualTime
                                                                                 : Share::EqualSamples);
   follow_errors();

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/session/pixel_watch.h"
+#include "app/session/scene_worker.h"
 #include "app/session/settings_search.h"
 #include "app/session/take.h"
 #include "app/session/truth.h"
@@ -35,7 +36,6 @@ struct SessionOptions {
 class Session {
  public:
   explicit Session(const SessionOptions& options = {});
-  ~Session();
 
   /// Once per frame.
   void update();
@@ -74,10 +74,7 @@ class Session {
 
   /// What is rendered: the variants that are on, or the scene itself. Of the newest successful commit; empty before
   /// the first.
-  struct Shown {
-    Variant variant;
-    std::shared_ptr<const Scene> scene;
-  };
+  using Shown = CommittedVariant;
   const std::vector<Shown>& shown() const { return shown_; }
 
   /// Size at which pictures are rendered; the engine restarts when it changes.
@@ -134,15 +131,10 @@ class Session {
 
   // --- What goes on
 
-  struct Activity {
-    std::string what;  ///< "Reading smoke.vdb"
-    float progress;    ///< 0..1
-    double seconds;    ///< since it began
-  };
-  std::optional<Activity> activity() const;
-  void cancel_activity();
+  std::optional<SceneWorker::Activity> activity() const { return worker_.activity(); }
+  void cancel_activity() { worker_.cancel(); }
   /// Nothing is being read, committed or waited for.
-  bool idle() const;
+  bool idle() const { return worker_.idle(); }
 
   /// Why the description cannot be rendered; empty when it can.
   const std::string& problem() const { return problem_; }
@@ -158,15 +150,9 @@ class Session {
   const std::vector<GridInfo>& grids_of(const std::string& path) const;
 
  private:
-  struct Wish;
-  struct Outcome;
-
   void description_changed(std::optional<Affects> dearest);
-  void request(Wish wish);
-  void serve(const std::stop_token& stop);
-  Outcome fulfil(const Wish& wish, const std::stop_token& cancel);
-  Result<std::vector<Shown>> commit_variants(const Node& description, CommitOptions options);
-  void take(Outcome outcome);
+  void request(SceneWish wish);
+  void take(SceneOutcome outcome);
   void submit(bool restart = false);
   void find_truth_again();
   void follow_errors();
@@ -194,25 +180,11 @@ class Session {
   std::vector<Take> takes_;
   int takes_kept_ = 0;
 
-  SceneCache cache_;
+  SceneWorker worker_;  // its cache outlives what follows
   LiveSweep live_;
   PixelWatch pixel_watch_;
   SettingsSearch search_;
   Engine engine_;
-
-  mutable std::mutex mutex_;  // guards what follows
-  std::condition_variable_any wished_;
-  std::unique_ptr<Wish> wish_;  // the newest, not yet taken up
-  std::unique_ptr<Outcome> outcome_;
-  std::string working_on_;  // empty: nothing
-  std::chrono::steady_clock::time_point work_began_;
-  std::stop_source cancel_work_;
-  std::atomic<float> progress_ = 0;
-  // The worker's own.
-  std::vector<Shown> last_committed_;
-  TruthFinder truth_finder_;
-  std::uint64_t commits_ = 0;
-  std::jthread worker_;  // last: it ends before what it uses
 };
 
 }  // namespace brume
