@@ -1,8 +1,8 @@
 #include "renderer/scene_io/read_node.h"
 
 #include <algorithm>
-#include <filesystem>
 
+#include "renderer/scene_io/file_paths.h"
 #include "renderer/scene_io/json_print.h"
 
 namespace brume {
@@ -16,14 +16,6 @@ bool takes_one_number_for_three(ParamType type) { return type == ParamType::Vect
 std::string shown(std::string_view word) {
   const std::string quoted = quote_for_message(word);
   return quoted.substr(1, quoted.size() - 2);
-}
-
-std::string absolute_path(const std::string& path, const std::string& base_dir) {
-  namespace fs = std::filesystem;
-  if (path.empty() || fs::path(path).is_absolute()) return path;
-  std::error_code error;
-  const fs::path joined = fs::absolute(fs::path(base_dir) / path, error);
-  return error ? path : joined.lexically_normal().string();
 }
 
 /// Reads one tree; knows the way from the root to where it is.

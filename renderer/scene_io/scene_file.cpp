@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "renderer/core/atomic_file.h"
+#include "renderer/scene_io/file_paths.h"
 #include "renderer/scene_io/json_print.h"
 #include "renderer/scene_io/read_node.h"
 #include "renderer/scene_io/scene_format.h"
@@ -114,7 +115,9 @@ Result<Node> read_scene_text(std::string_view text, const std::string& file_name
   auto json = parse_json(text, file_name);
   if (!json) return json.error();
   if (auto done = take_format(*json, file_name); !done) return done.error();
-  return read_node(*json, root, {file_name, base_dir});
+  auto node = read_node(*json, root, {file_name, base_dir});
+  if (node) make_settings_absolute(*node, base_dir);
+  return node;
 }
 
 Result<Node> read_scene_file(const std::string& path, const Family& root) {
@@ -127,7 +130,9 @@ Result<std::string> write_scene_text(const Node& node, const std::string& target
   if (auto done = check_utf8(node, ""); !done) return done.error();
   JsonValue json = JsonValue::object();
   json.add(kSceneFormatKey, kSceneFormat);
-  JsonValue content = node_to_json(node, family_of(node), {target_dir});
+  Node portable = node;
+  make_settings_relative(portable, target_dir);
+  JsonValue content = node_to_json(portable, family_of(portable), {target_dir});
   for (JsonMember& m : content.members) json.members.push_back(std::move(m));
   return format_json(json, true) + "\n";
 }

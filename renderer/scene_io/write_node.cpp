@@ -1,33 +1,11 @@
 #include "renderer/scene_io/write_node.h"
 
-#include <filesystem>
-
+#include "renderer/scene_io/file_paths.h"
 #include "renderer/scene_io/json_print.h"
 #include "renderer/scene_io/json_tree.h"
 
 namespace brume {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// Relative to `target_dir` when that is short and certain to lead back; otherwise `path` unchanged.
-std::string path_to_write(const std::string& path, const std::string& target_dir) {
-  const fs::path original(path);
-  if (target_dir.empty() || !original.is_absolute()) return path;
-  std::error_code error;
-  const fs::path absolute = fs::absolute(target_dir, error);
-  if (error) return path;
-  const fs::path target = (absolute / "").lexically_normal();  // ends with a slash, whatever `target_dir` ends with
-
-  const fs::path relative = original.lexically_relative(target);
-  int up = 0;
-  for (const fs::path& part : relative) up += part == "..";
-  // A folder below the root has only the root in common with everything else: that is not near.
-  int depth = 0;
-  for (const fs::path& part : target.relative_path()) depth += !part.empty();
-  const bool near = !relative.empty() && (up == 0 || (up <= 2 && up < depth));
-  return near && (target / relative).lexically_normal().string() == path ? relative.string() : path;
-}
 
 constexpr std::string_view kNameKey = "name";
 
@@ -39,7 +17,7 @@ bool is_written(const Param& param, const Value& value, bool all) {
 
 JsonValue param_to_json(const Param& param, const Value& value, const WriteOptions& options) {
   const auto* text = std::get_if<std::string>(&value);
-  return param.type == ParamType::File && text ? JsonValue(path_to_write(*text, options.target_dir))
+  return param.type == ParamType::File && text ? JsonValue(relative_path(*text, options.target_dir))
                                                : value_to_json(value);
 }
 

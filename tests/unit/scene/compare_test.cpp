@@ -127,6 +127,23 @@ TEST(Compare, SettingsFollowAnObjectThatIsRenamedAndLeaveOneThatIsReplaced) {
   EXPECT_TRUE(variants_of(scene).ok());
 }
 
+// As the file of a volume itself: relative to the scene's folder on disk, absolute in memory.
+TEST(Compare, FilesThatSettingsNameBelongToTheScenesFolder) {
+  const auto scene = read_scene_text(
+      R"({"brume": 1, "volumes": [{"shader": "homogeneous"}], "compare": {"variants": [
+          {"set": {"volumes.0.shader": "vdb", "volumes.0.file": "grids/a.vdb", "volumes.0.name": "smoke"}},
+          {"set": {"render.bounces": 2}}]}})",
+      "test.json", "/home/scenes", scene_family());
+  ASSERT_TRUE(scene.ok()) << scene.error().to_string();
+  const auto settings = scene->child("compare").list("variants")[0].settings("set");
+  EXPECT_EQ(settings[1].value, "/home/scenes/grids/a.vdb");
+  EXPECT_EQ(settings[2].value, "smoke") << "a name is no file";
+  const auto text = write_scene_text(*scene, "/home/scenes");
+  ASSERT_TRUE(text.ok());
+  EXPECT_NE(text->find("\"grids/a.vdb\""), std::string::npos) << *text;
+  EXPECT_EQ(*read_scene_text(*text, "again.json", "/home/scenes", scene_family()), *scene);
+}
+
 TEST(Compare, SettingsCanBeTyped) {
   Node scene = with_variants({{}});
   set(scene, "compare.variants.0.set", "render.bounces=2; render.integrator = ray_march");
