@@ -24,6 +24,7 @@ struct Axis {
   /// no place on the axis or leaves no range is taken from the data, too.
   std::optional<double> low = {}, high = {};
   bool percent = false;  ///< 0.05 is shown as "5 %"
+  bool whole = false;    ///< counts: a linear axis has no ticks between whole numbers
 };
 
 enum class LineStyle { Solid, Dashed, None };

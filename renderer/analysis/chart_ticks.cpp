@@ -153,7 +153,8 @@ bool labels_fit(const std::vector<Tick>& ticks, const AxisRange& range, const Ti
 std::vector<Tick> linear_ticks(const Axis& axis, const AxisRange& range, const TickRoom& room) {
   const double length = range.high - range.low, distance = std::max(1.0, static_cast<double>(room.least_distance));
   const double shortest = length * std::min(1.0, distance / std::max(1.0, static_cast<double>(room.length)));
-  for (Step step{1, exponent_of(shortest)};; step = step.next()) {
+  const int finest = axis.whole ? std::max(0, exponent_of(shortest)) : exponent_of(shortest);
+  for (Step step{1, finest};; step = step.next()) {
     std::vector<Tick> ticks = step_ticks(axis, range, step);
     // Ends at the latest when the step passes the range, which has at most one tick then.
     if (ticks.size() < 2 || labels_fit(ticks, range, room, distance)) return ticks;

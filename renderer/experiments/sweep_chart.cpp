@@ -138,6 +138,7 @@ Chart chart_of(const Sweep& sweep, const SweepAxis& x, const SweepAxis& y, const
   Chart chart;
   chart.title = title;
   chart.x.label = x.label, chart.y.label = y.label;
+  chart.x.whole = x.key == "bounces" || x.key == "light_samples";
   const bool relative = y.key == "relative_mean_bias";
   chart.y.percent = relative;
   std::vector<std::string> names;

@@ -44,6 +44,11 @@ TEST(ChartTicks, LargeAndSmallNumbersGetAPowerOfTen) {
       << "no power of ten where it would not be shorter";
 }
 
+TEST(ChartTicks, CountsHaveNoTicksBetweenWholeNumbers) {
+  EXPECT_EQ(labels(Axis{.whole = true}, 0, 2, 900), (Labels{"0", "1", "2"}));
+  EXPECT_EQ(labels(Axis{.whole = true}, 0, 40, 250), labels(kLinear, 0, 40, 250));
+}
+
 TEST(ChartTicks, PercentAreHundredths) {
   const Axis linear{.percent = true}, logarithmic{.logarithmic = true, .percent = true};
   EXPECT_EQ(labels(linear, 0, 0.2, 250), (Labels{"0 %", "5 %", "10 %", "15 %", "20 %"}));
