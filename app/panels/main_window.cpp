@@ -20,6 +20,12 @@ constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_N
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
                                     ImGuiWindowFlags_NoTitleBar;
 
+bool begin_panel(const char* name, ImVec2 corner, ImVec2 size, ImGuiWindowFlags flags = 0) {
+  ImGui::SetNextWindowPos(corner);
+  ImGui::SetNextWindowSize(size);
+  return ui::begin_window(name, nullptr, kPanel | flags);
+}
+
 struct Shortcut {
   const char *keys, *what;
 };
@@ -251,16 +257,6 @@ void MainWindow::draw_menu() {
   ImGui::TextDisabled("%s", title.c_str());
   ui::end_main_menu_bar();
 }
-
-namespace {
-
-bool begin_panel(const char* name, ImVec2 corner, ImVec2 size, ImGuiWindowFlags flags = 0) {
-  ImGui::SetNextWindowPos(corner);
-  ImGui::SetNextWindowSize(size);
-  return ui::begin_window(name, nullptr, kPanel | flags);
-}
-
-}  // namespace
 
 void MainWindow::draw_panels() {
   const ImGuiIO& io = ImGui::GetIO();

@@ -51,7 +51,7 @@ void draw_figures(const PixelProbe& p) {
   figure("Transmittance", color_text(p.transmittance), "Share of the light behind the medium that is seen through it.");
   double thickest = 0;
   for (const double sigma_t : p.profile.sigma_t) thickest = std::max(thickest, sigma_t);
-  figure("Largest sigma_t", formatted("%.3g", thickest), "Of the segments on the ray, per world unit.");
+  figure("Max. sigma_t", formatted("%.3g", thickest), "Of the segments on the ray, per world unit.");
   figure("Segments", formatted("%.1f", p.segments), "Mean number in the march of a camera ray.");
   figure("Drawn by", favoured_text(p),
          "Which technique has drawn the distances that the light comes from; under MIS, which one its weights favour.");

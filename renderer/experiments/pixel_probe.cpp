@@ -33,24 +33,25 @@ template <int C> RayProfile profile_of(const Scene& scene, Ray ray, SampleContex
   for (int i = 0; i <= rec.n; ++i) out.transmittance.push_back(mean_of_channels(rec.transmittance, i));
   for (int i = 0; i < rec.n; ++i) out.sigma_t.push_back(mean_of_channels(rec.sigma_t, i));
   if (!(rec.scattered() > 0)) return out;
+  const auto per_unit = [&](double probability, std::size_t i) { return probability / (out.t[i + 1] - out.t[i]); };
   for (std::size_t i = 0; i < n; ++i)
-    out.density_pdf.push_back(double(rec.p[i]) / (double(rec.scattered()) * (out.t[i + 1] - out.t[i])));
+    out.density_pdf.push_back(per_unit(double(rec.p[i]) / double(rec.scattered()), i));
   for (std::size_t l = 0; l < scene.lights.size() && out.lights.size() < kMostLights; ++l) {
     const Light& light = *scene.lights[l];
     const LightPoint point = light.sample_point({0.5f, 0.5f});
     if (point.kind != LightPoint::Kind::Finite) continue;
-    RayProfile::OfLight& of_light = out.lights.emplace_back(RayProfile::OfLight{l, {}, {}});
-    const Interval lit = lit_part(rec, ray, light, point);
-    for (std::size_t i = 0; i < n; ++i) {
-      const float middle = 0.5f * (rec.t[i] + rec.t[i + 1]);
-      const bool reached = !lit.empty() && lit.begin <= middle && middle <= lit.end;
-      of_light.equiangular_pdf.push_back(reached ? double(EquiangularDistribution(ray, point.position, lit).pdf(middle))
-                                                 : 0);
+    RayProfile::OfLight& of_light = out.lights.emplace_back(RayProfile::OfLight{l, std::vector<double>(n), {}});
+    if (const Interval lit = lit_part(rec, ray, light, point); !lit.empty()) {
+      const EquiangularDistribution equiangular(ray, point.position, lit);  // 0 beyond the lit part
+      for (std::size_t i = 0; i < n; ++i)
+        of_light.equiangular_pdf[i] = double(equiangular.pdf(0.5f * (rec.t[i] + rec.t[i + 1])));
     }
     const auto pivot = light.pivot();
     if (!pivot) continue;
     const ProductSampling<C> product = product_sampling(rec, ray, scene, light, *pivot, context.arena);
-    for (int i = 0; i < rec.n && product.total() > 0; ++i) of_light.product_pdf.push_back(double(product.mean_pdf(i)));
+    if (!(product.total() > 0)) continue;
+    for (int i = 0; i < rec.n; ++i)
+      of_light.product_pdf.push_back(per_unit(double(product.probability(i)), static_cast<std::size_t>(i)));
   }
   return out;
 }

@@ -1,8 +1,8 @@
 // Why a pixel looks as it does: what its ray meets, and where on it light is sampled.
 #pragma once
 
+#include <optional>
 #include <stop_token>
-#include <string>
 #include <vector>
 
 #include "renderer/analysis/chart.h"

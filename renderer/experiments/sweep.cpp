@@ -56,29 +56,41 @@ Result<std::vector<SweepVariant>> swept(const std::vector<SweepVariant>& variant
   return all;
 }
 
+namespace {
+
+/// A half, 1, 2 and 4 of the step that the scene takes by default.
+Result<std::vector<std::string>> steps_to_search(Node marched, SceneCache& cache) {
+  if (const auto done = set_by_path(marched, "render.step_size", "auto"); !done) return done.error();
+  const auto scene = commit(marched, cache, {});
+  if (!scene) return scene.error();
+  std::vector<std::string> steps;
+  for (const double factor : {0.5, 1.0, 2.0, 4.0})
+    steps.push_back(short_number(factor * static_cast<double>((*scene)->step_size)));
+  return steps;
+}
+
+bool has(const SweepVariant& variant, const char* param) {
+  Node description = variant.description;
+  return find_param(description, param).ok();
+}
+
+}  // namespace
+
 Result<std::vector<SweepVariant>> settings_to_search(const Node& scene, SceneCache& cache) {
+  std::vector<SweepVariant> methods = all_methods(scene);
+  const auto marched =
+      std::find_if(methods.begin(), methods.end(), [](const SweepVariant& v) { return has(v, "render.step_size"); });
+  const auto steps = steps_to_search(marched->description, cache);  // the same of all
+  if (!steps) return steps.error();
   std::vector<SweepVariant> all;
-  for (SweepVariant& method : all_methods(scene)) {
-    std::vector<SweepVariant> of_method{std::move(method)};
-    Node& description = of_method.front().description;
-    const bool is_decoupled = description.child("render").kind() == "decoupled";
-    if (find_param(description, "render.step_size")) {
-      static_cast<void>(set_by_path(description, "render.step_size", "auto").ok());
-      const auto committed = commit(description, cache, {});
-      if (!committed) return committed.error();
-      std::vector<std::string> steps;
-      for (const double factor : {0.5, 1.0, 2.0, 4.0})
-        steps.push_back(short_number(factor * static_cast<double>((*committed)->step_size)));
-      auto more = swept(of_method, "render.step_size", steps);
-      if (!more) return more.error();
-      of_method = std::move(*more);
-    }
-    if (is_decoupled) {
-      auto more = swept(of_method, "render.light_samples", {"1", "2", "4", "8"});
-      if (!more) return more.error();
-      of_method = std::move(*more);
-    }
-    all.insert(all.end(), of_method.begin(), of_method.end());
+  for (SweepVariant& method : methods) {
+    const bool marches = has(method, "render.step_size"),
+               is_decoupled = method.description.child("render").kind() == "decoupled";
+    Result<std::vector<SweepVariant>> of_method = std::vector<SweepVariant>{std::move(method)};
+    if (marches) of_method = swept(*of_method, "render.step_size", *steps);
+    if (of_method && is_decoupled) of_method = swept(*of_method, "render.light_samples", {"1", "2", "4", "8"});
+    if (!of_method) return of_method.error();
+    all.insert(all.end(), of_method->begin(), of_method->end());
   }
   return all;
 }

@@ -123,6 +123,16 @@ void name_exponent(Series& series) {
   series.name += text;
 }
 
+/// The line of that name; a new one has the next colour. Colours come again after eight: then in dashes.
+Series& series_named(Chart& chart, const std::string& name) {
+  const auto found =
+      std::find_if(chart.series.begin(), chart.series.end(), [&](const Series& s) { return s.name == name; });
+  if (found != chart.series.end()) return *found;
+  const std::size_t n = chart.series.size();
+  const LineStyle line = n >= 8 ? LineStyle::Dashed : LineStyle::Solid;
+  return chart.series.emplace_back(Series{.name = name, .color = series_color(n), .line = line});
+}
+
 /// The point from which a guide is drawn: where the first line begins.
 std::optional<std::array<double, 2>> first_point(const Chart& chart) {
   for (const Series& s : chart.series)
@@ -141,23 +151,14 @@ Chart chart_of(const Sweep& sweep, const SweepAxis& x, const SweepAxis& y, const
   chart.x.whole = x.key == "bounces" || x.key == "light_samples";
   const bool relative = y.key == "relative_mean_bias";
   chart.y.percent = relative;
-  std::vector<std::string> names;
   bool positive_x = true, positive_y = true;
   for (const SweepRow& row : sweep.rows) {
     if (by_setting && !row.last) continue;
     const SweepVariant& variant = sweep.variants[row.variant];
     const std::string& name = by_setting ? variant.series : variant.name;
-    auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) {
-      names.push_back(name);
-      found = names.end() - 1;
-      // Colours come again after eight: then in dashes.
-      const LineStyle line = names.size() > 8 ? LineStyle::Dashed : LineStyle::Solid;
-      chart.series.push_back({.name = name, .color = series_color(names.size() - 1), .line = line});
-    }
     const std::array<double, 2> point{x.value(sweep, row), y.value(sweep, row)};
     positive_x &= point[0] > 0, positive_y &= point[1] > 0;
-    chart.series[static_cast<std::size_t>(found - names.begin())].points.push_back(point);
+    series_named(chart, name).points.push_back(point);
   }
   chart.x.logarithmic = positive_x && x.key != "bounces";
   chart.y.logarithmic = positive_y || y.kind == SweepAxis::Kind::Error;  // an error of exactly 0 has no place
@@ -221,14 +222,9 @@ Chart pareto_chart(const Sweep& sweep, const SweepAxis& error) {
   chart.x = {.label = time.label, .logarithmic = true};
   chart.y = {.label = error.label, .logarithmic = true, .percent = error.key == "relative_mean_bias"};
   for (const SweepRow& row : sweep.rows) {
-    const std::string& name = sweep.variants[row.variant].series;
-    auto found =
-        std::find_if(chart.series.begin(), chart.series.end(), [&](const Series& s) { return s.name == name; });
-    if (found == chart.series.end()) {
-      chart.series.push_back({.name = name, .color = series_color(chart.series.size()), .line = LineStyle::None});
-      found = chart.series.end() - 1;
-    }
-    found->points.push_back({time.value(sweep, row), error.value(sweep, row)});
+    Series& series = series_named(chart, sweep.variants[row.variant].series);
+    series.line = LineStyle::None;
+    series.points.push_back({time.value(sweep, row), error.value(sweep, row)});
   }
   add_front(sweep, error, {}, chart);
   return chart;

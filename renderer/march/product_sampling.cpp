@@ -68,14 +68,10 @@ ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const Ray& ray
 
 template <int C> float ProductSampling<C>::total() const { return cdf_[record_.n] / (1 + kDefensive); }
 
-template <int C> float ProductSampling<C>::mean_pdf(int i) const {
-  return (cdf_[i + 1] - cdf_[i]) / cdf_[record_.n] / (record_.t[i + 1] - record_.t[i]);
-}
-
 template <int C> SampledPoint<C> ProductSampling<C>::sample(float u) const {
   const DrawnSegment drawn = draw_segment(cdf_, record_.n, u);
   const int i = drawn.segment;
-  const float share = (cdf_[i + 1] - cdf_[i]) / cdf_[record_.n];
+  const float share = probability(i);
   if (is_near(i)) {
     const Interval part = intersect({record_.t[i], record_.t[i + 1]}, lit_);
     const DistanceSample s = EquiangularDistribution(foot_, part).sample(drawn.rest);

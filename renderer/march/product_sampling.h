@@ -30,8 +30,8 @@ template <int C> class ProductSampling {
   /// Needs total() > 0.  @param u  in [0,1)
   SampledPoint<C> sample(float u) const;
 
-  /// Probability of a segment over its length, per world unit.
-  float mean_pdf(int segment) const;
+  /// Of a segment.
+  float probability(int segment) const { return (cdf_[segment + 1] - cdf_[segment]) / cdf_[record_.n]; }
 
  private:
   bool is_near(int segment) const;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr PixelPlace kPlace{7, 5, 16, 12};
 
-/// A marched volume that gets denser away from the camera, a lamp beside it, a surface behind.
+/// A marched volume that gets denser away from the camera, a lamp beside it.
 Node scene_of(const char* integrator, const char* mode = nullptr) {
   Node scene = empty_scene();
   set(scene, "camera.position", "0,-4,0");
