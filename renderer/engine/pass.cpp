@@ -63,9 +63,9 @@ std::optional<int> for_each_pixel(const Grid& grid, WorkerPool& pool, const Canc
 
 }  // namespace
 
-Color sample_pixel(const Scene& scene, const Integrator& integrator, const PixelPlace& place, const Sampler& pass,
+Color sample_pixel(const Scene& scene, const Integrator& integrator, const PixelPlace& place, const SamplerPass& pass,
                    Arena& arena, RayStatistics& statistics, RayDiagnostics* diagnostics) {
-  const Sampler sampler = pass.of_pixel(place.x, place.y, place.width);
+  const Sampler sampler(pass, place.x, place.y, place.width);
   const Vec2 inside = sampler.u2(Decision::Pixel);
   const float width = static_cast<float>(place.width), height = static_cast<float>(place.height);
   const Ray ray = scene.camera.ray((static_cast<float>(place.x) + inside.x) / width,
@@ -82,10 +82,10 @@ int tile_count(int width, int height) {
 std::optional<int> render_pass(const Scene& scene, const Integrator& integrator, std::uint32_t sample, Film& film,
                                WorkerPool& pool, const Cancelled& cancelled, TileRange tiles, const Cancelled& enough) {
   const Grid grid{film.width(), film.height()};
-  const Sampler pass(scene.render.sampler, scene.render.seed, 0, sample);
-  const Sampler twin_pass(scene.render.sampler, scene.render.seed ^ kTwinSeed, 0, sample);
+  const SamplerPass pass(scene.render.sampler, scene.render.seed, sample);
+  const SamplerPass twin_pass(scene.render.sampler, scene.render.seed ^ kTwinSeed, sample);
   return for_each_pixel(grid, pool, cancelled, tiles, enough, [&](int x, int y, Worker& worker) {
-    const auto one = [&](const Sampler& numbers) {
+    const auto one = [&](const SamplerPass& numbers) {
       return sample_pixel(scene, integrator, {x, y, grid.width, grid.height}, numbers, worker.arena, worker.statistics);
     };
     if (!film.add_sample(x, y, one(pass))) ++worker.statistics.non_finite;
@@ -96,7 +96,7 @@ std::optional<int> render_pass(const Scene& scene, const Integrator& integrator,
 bool render_coarse(const Scene& scene, const Integrator& integrator, int width, int height, int divisor, Image& image,
                    WorkerPool& pool, const Cancelled& cancelled) {
   const Grid grid{(width + divisor - 1) / divisor, (height + divisor - 1) / divisor};
-  const Sampler pass(scene.render.sampler, scene.render.seed, 0, 0);
+  const SamplerPass pass(scene.render.sampler, scene.render.seed, 0);
   image = Image(grid.width, grid.height);
   const auto end = for_each_pixel(grid, pool, cancelled, {}, {}, [&](int x, int y, Worker& worker) {
     const Color c =

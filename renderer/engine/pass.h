@@ -25,8 +25,8 @@ struct PixelPlace {
 };
 
 /// One sample of a pixel, the same that render_pass() adds to a film.
-/// @param pass  of sample number n: Sampler(scene.render.sampler, scene.render.seed, 0, n)
-Color sample_pixel(const Scene& scene, const Integrator& integrator, const PixelPlace& place, const Sampler& pass,
+/// @param pass  of sample number n: SamplerPass(scene.render.sampler, scene.render.seed, n)
+Color sample_pixel(const Scene& scene, const Integrator& integrator, const PixelPlace& place, const SamplerPass& pass,
                    Arena& arena, RayStatistics& statistics, RayDiagnostics* diagnostics = nullptr);
 
 /// Some of a picture's tiles, which are numbered by rows.

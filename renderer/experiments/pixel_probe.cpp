@@ -86,7 +86,7 @@ std::optional<PixelProbe> probe_pixel(const Scene& scene, const Integrator& inte
   for (int pass = 0; pass < options.samples; ++pass) {
     if (cancel.stop_requested()) return std::nullopt;
     RayDiagnostics met;
-    const Sampler numbers(scene.render.sampler, scene.render.seed, 0, static_cast<std::uint32_t>(pass));
+    const SamplerPass numbers(scene.render.sampler, scene.render.seed, static_cast<std::uint32_t>(pass));
     const Color c = sample_pixel(scene, integrator, options.place, numbers, arena, statistics, &met);
     if (!is_finite(c)) {
       ++out.non_finite;

@@ -48,6 +48,7 @@ void ClipToBox(const ShadowRays& rays, const Affine& box_from_scene, Vec3 low, V
 
 void WritePoints(const ShadowRays& rays, std::span<const ShadowRow> rows, float* x, float* y, float* z) {
   const D d;
+  const V iota = hn::Iota(d, 0);
   for (const ShadowRow& row : rows) {
     const Ray ray = rays[row.ray];
     const V ox = hn::Set(d, ray.origin.x), oy = hn::Set(d, ray.origin.y), oz = hn::Set(d, ray.origin.z);
@@ -57,7 +58,7 @@ void WritePoints(const ShadowRays& rays, std::span<const ShadowRow> rows, float*
     float* const py = y + row.first;
     float* const pz = z + row.first;
     for (int i = 0; i < row.n; i += lanes()) {
-      const V t = hn::MulAdd(hn::Iota(d, static_cast<float>(i)), step, begin);
+      const V t = hn::MulAdd(hn::Add(iota, hn::Set(d, static_cast<float>(i))), step, begin);
       hn::StoreU(hn::MulAdd(wx, t, ox), d, px + i);
       hn::StoreU(hn::MulAdd(wy, t, oy), d, py + i);
       hn::StoreU(hn::MulAdd(wz, t, oz), d, pz + i);

@@ -1,20 +1,12 @@
 #include "renderer/sampling/sampler.h"
 
 #include <bit>
-#include <boost/random/sobol.hpp>
+
+#include "renderer/sampling/hash.h"
+#include "renderer/sampling/pixel_blocks.h"
 
 namespace brume {
 namespace {
-
-/// A bijection of 64 bits that mixes well. Steele et al. 2014, "Fast Splittable Pseudorandom Number Generators",
-/// variant 13 of Stafford's finalizers.
-std::uint64_t mix(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-  return z ^ (z >> 31);
-}
-
-std::uint64_t combine(std::uint64_t key, std::uint64_t value) { return mix(key + 0x9e3779b97f4a7c15ull * (value + 1)); }
 
 /// The upper 24 bits, so that the float is exact and stays below 1.
 float to_unit(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
@@ -76,72 +68,6 @@ class PaddedPoint {
   std::uint64_t key_;
 };
 
-using Matrix = std::array<std::uint32_t, 32>;  // column j: what bit j of the index adds to the digits
-
-/// The matrices of the first dimensions, with the direction numbers of
-/// Joe & Kuo 2008 that Boost holds.
-const std::array<Matrix, Sampler::kJointDimensions>& sobol_matrices() {
-  static const auto matrices = [] {
-    std::array<Matrix, Sampler::kJointDimensions> all;
-    boost::random::sobol_engine<std::uint32_t, 32> engine(all.size());
-    for (unsigned j = 0; j < 32; ++j) {
-      // Boost runs through the points in the order of Gray's code and leaves out the first, which is 0: this is the one
-      // whose index has bit j only.
-      engine.seed((std::uint64_t{1} << (j + 1)) - 2);
-      for (Matrix& matrix : all) matrix[j] = reverse_bits(engine());
-    }
-    return all;
-  }();
-  return matrices;
-}
-
-/// The first digits, in reverse, of the numbers that the pixels of a block share out among themselves, one set for each
-/// dimension: linear maps of the pixel's place, so that a block hits every sixteenth of [0, 1) once and each of its
-/// quarters every quarter; otherwise random.
-constexpr int kBlockSide = 4, kBlockPixels = kBlockSide * kBlockSide, kBlockDigits = 4;
-using BlockDigits = std::array<std::uint32_t, kBlockPixels>;
-
-const std::array<BlockDigits, Sampler::kJointDimensions>& block_digits() {
-  static const auto digits = [] {
-    std::array<BlockDigits, Sampler::kJointDimensions> all{};
-    for (std::size_t d = 0; d < all.size(); ++d) {
-      // Columns of a 4x4 matrix modulo 2 of which the upper left quarter and the lower right one are invertible, the
-      // lower left one is 0 and the upper right one free.
-      const std::uint64_t bits = mix(0x6272756d65ull + d);
-      constexpr std::uint32_t kInvertible[][2] = {{1, 2}, {2, 1}, {1, 3}, {3, 1}, {2, 3}, {3, 2}};
-      const auto& upper = kInvertible[bits % 6];
-      const auto& lower = kInvertible[bits / 6 % 6];
-      const std::uint32_t column[kBlockDigits] = {upper[0], upper[1],
-                                                  lower[0] << 2 | static_cast<std::uint32_t>(bits >> 32 & 3),
-                                                  lower[1] << 2 | static_cast<std::uint32_t>(bits >> 34 & 3)};
-      for (std::uint32_t i = 0; i < kBlockPixels; ++i)
-        for (std::uint32_t j = 0; j < kBlockDigits; ++j)
-          if (i >> j & 1) all[d][i] ^= column[j];
-    }
-    return all;
-  }();
-  return digits;
-}
-
-/// Number of a pixel in its block, so that every 2x2 pixels are an aligned run of four: Morton's order.
-std::uint32_t place_in_block(int x, int y) {
-  const auto i = static_cast<std::uint32_t>(x), j = static_cast<std::uint32_t>(y);
-  return (i & 1) | (j & 1) << 1 | (i & 2) << 1 | (j & 2) << 2;
-}
-
-/// Owen scrambling of the first digits: 15 random bits tell for each whether it is flipped, by the ones before it.
-std::uint32_t scramble_first_digits(std::uint32_t x, std::uint32_t bits) {
-  const std::uint32_t flips = (bits & 1) | (bits >> (1 + (x & 1)) & 1) << 1 | (bits >> (3 + (x & 3)) & 1) << 2 |
-                              (bits >> (7 + (x & 7)) & 1) << 3;
-  return x ^ flips;
-}
-
-/// Those of the 15 bits with which 0, the digits of the first pass, becomes `target`.
-constexpr std::uint32_t kBitsOfZero = 1 | 1 << 1 | 1 << 3 | 1 << 7;
-std::uint32_t bits_from_zero_to(std::uint32_t target) {
-  return (target & 1) | (target >> 1 & 1) << 1 | (target >> 2 & 1) << 3 | (target >> 3 & 1) << 7;
-}
-
 /// Where in the point of a pass a decision has its dimensions: the best ones, which are the first, go to what matters
 /// most. At the camera ray's vertex only, and for so many lights.
 struct Place {
@@ -172,80 +98,58 @@ int joint_dimension(Decision decision, int bounce, int index) {
   return bounce == 0 && index < place.lights ? place.first + place.each * index : -1;
 }
 
+std::uint64_t pixel_number(int column, int row, int columns) {
+  return static_cast<std::uint64_t>(row) * static_cast<std::uint64_t>(columns) + static_cast<std::uint64_t>(column);
+}
+
 }  // namespace
 
+SamplerPass::SamplerPass(SamplerKind of_kind, std::uint64_t seed, std::uint32_t number)
+    : kind(of_kind), sample(number), seed_key(combine(0, seed)) {
+  if (kind == SamplerKind::Sobol) digits = sobol_digits(sample);
+}
+
+Sampler::Sampler(const SamplerPass& pass, const JointKeys& keys)
+    : kind_(pass.kind), sample_(pass.sample), pixel_key_(keys.pixel) {
+  if (kind_ == SamplerKind::Sobol) scramble(pass.digits, keys, joint_);
+}
+
+Sampler::Sampler(const SamplerPass& pass, int x, int y, int picture_width)
+    : Sampler(pass, {.pixel = combine(pass.seed_key, pixel_number(x, y, picture_width)),
+                     .block = combine(~pass.seed_key, pixel_number(x / kBlockSide, y / kBlockSide, picture_width)),
+                     .place = place_in_block(x, y)}) {}
+
 Sampler::Sampler(SamplerKind kind, std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample)
-    : kind_(kind),
-      sample_(sample),
-      seed_key_(combine(0, seed)),
-      pixel_key_(combine(seed_key_, pixel)),
-      block_key_(mix(pixel_key_)),
-      point_{} {
-  if (kind != SamplerKind::Sobol) return;
-  const auto& matrices = sobol_matrices();
-  for (std::size_t d = 0; d < point_.size(); ++d)
-    for (std::uint32_t rest = sample, j = 0; rest != 0; rest >>= 1, ++j)
-      if (rest & 1) point_[d] ^= matrices[d][j];
-}
+    : Sampler(SamplerPass(kind, seed, sample),
+              {.pixel = combine(combine(0, seed), pixel), .block = mix(combine(combine(0, seed), pixel))}) {}
 
-Sampler Sampler::of_pixel(int x, int y, int picture_width) const {
-  const auto number = [](int column, int row, int columns) {
-    return static_cast<std::uint64_t>(row) * static_cast<std::uint64_t>(columns) + static_cast<std::uint64_t>(column);
-  };
-  Sampler other = *this;
-  other.pixel_key_ = combine(seed_key_, number(x, y, picture_width));
-  other.block_key_ = combine(~seed_key_, number(x / kBlockSide, y / kBlockSide, picture_width));
-  other.place_ = place_in_block(x, y);
-  return other;
-}
-
-std::uint64_t Sampler::dimension_key(std::uint64_t key, Decision decision, int bounce, int index) const {
+std::uint64_t Sampler::key_of(Decision decision, int bounce, int index) const {
   const std::uint64_t dimension = (static_cast<std::uint64_t>(decision) << 56) ^
                                   (static_cast<std::uint64_t>(static_cast<std::uint32_t>(bounce)) << 24) ^
                                   static_cast<std::uint32_t>(index);
-  return combine(key, dimension);
-}
-
-/// The pixel's own scrambling, whose first digits are flipped by random bits, so that one round is enough for the
-/// others; but for the place of the first pass, of which the first digits are the block's to give.
-std::uint32_t Sampler::joint_bits(std::size_t dimension, std::uint32_t pixel_key, std::uint32_t block_key) const {
-  constexpr std::uint32_t kFirst = (1u << kBlockDigits) - 1;
-  const std::uint32_t x = point_[dimension];
-  const std::uint32_t target = scramble_first_digits(block_digits()[dimension][place_], block_key);
-  const std::uint32_t own = pixel_key * 0x9e3779b9u >> 16;
-  const std::uint32_t bits = (own & ~kBitsOfZero) | bits_from_zero_to(target);
-  return reverse_bits((laine_karras_round(x, pixel_key) & ~kFirst) | scramble_first_digits(x & kFirst, bits));
+  return combine(pixel_key_, dimension);
 }
 
 float Sampler::u1(Decision decision, int bounce, int index) const {
-  const std::uint64_t key = dimension_key(pixel_key_, decision, bounce, index);
-  if (kind_ == SamplerKind::Independent) return to_unit(static_cast<std::uint32_t>(combine(key, sample_)));
-  if (const int d = joint_dimension(decision, bounce, index); d >= 0) {
-    const std::uint64_t block = dimension_key(block_key_, decision, bounce, index);
-    return to_unit(
-        joint_bits(static_cast<std::size_t>(d), static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(block)));
-  }
-  return to_unit(PaddedPoint(sample_, key).x());
+  if (kind_ == SamplerKind::Independent)
+    return to_unit(static_cast<std::uint32_t>(combine(key_of(decision, bounce, index), sample_)));
+  if (const int d = joint_dimension(decision, bounce, index); d >= 0) return joint_[static_cast<std::size_t>(d)];
+  return to_unit(PaddedPoint(sample_, key_of(decision, bounce, index)).x());
 }
 
 Vec2 Sampler::u2(Decision decision, int bounce, int index) const {
-  const std::uint64_t key = dimension_key(pixel_key_, decision, bounce, index);
   if (kind_ == SamplerKind::Independent) {
-    const std::uint64_t bits = combine(key, sample_);
+    const std::uint64_t bits = combine(key_of(decision, bounce, index), sample_);
     return {to_unit(static_cast<std::uint32_t>(bits)), to_unit(static_cast<std::uint32_t>(bits >> 32))};
   }
-  if (const int d = joint_dimension(decision, bounce, index); d >= 0) {
-    const auto x = static_cast<std::size_t>(d);
-    const std::uint64_t block = dimension_key(block_key_, decision, bounce, index);
-    return {to_unit(joint_bits(x, static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(block))),
-            to_unit(joint_bits(x + 1, static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(block >> 32)))};
-  }
-  const PaddedPoint p(sample_, key);
+  if (const int d = joint_dimension(decision, bounce, index); d >= 0)
+    return {joint_[static_cast<std::size_t>(d)], joint_[static_cast<std::size_t>(d) + 1]};
+  const PaddedPoint p(sample_, key_of(decision, bounce, index));
   return {to_unit(p.x()), to_unit(p.y())};
 }
 
 float Sampler::per_pixel(Decision decision) const {
-  return to_unit(static_cast<std::uint32_t>(dimension_key(pixel_key_, decision, 0, 0) >> 32));
+  return to_unit(static_cast<std::uint32_t>(key_of(decision, 0, 0) >> 32));
 }
 
 }  // namespace brume

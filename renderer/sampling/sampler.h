@@ -1,10 +1,10 @@
 // Counter-based random numbers with one named dimension per decision.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "renderer/core/vec.h"
+#include "renderer/sampling/scramble.h"
 
 namespace brume {
 
@@ -44,6 +44,16 @@ enum class Decision : std::uint32_t {
 };
 inline constexpr int kDecisionCount = static_cast<int>(Decision::ShadowRoulette) + 1;
 
+/// Pass number `sample` over a picture: what the samplers of its pixels have in common.
+struct SamplerPass {
+  SamplerPass(SamplerKind kind, std::uint64_t seed, std::uint32_t sample);
+
+  SamplerKind kind;
+  std::uint32_t sample;
+  std::uint64_t seed_key;
+  JointArray<std::uint32_t> digits = {};
+};
+
 /// Random numbers of one sample of one pixel. A pure function of its arguments: no state advances, so results do not
 /// depend on the order of calls, on threads or on tiles.
 ///
@@ -56,11 +66,11 @@ inline constexpr int kDecisionCount = static_cast<int>(Decision::ShadowRoulette)
 /// have much less noise to share out, and pixels that were coupled in them would err alike.
 class Sampler {
  public:
+  /// Of pixel (x, y) of a picture.
+  Sampler(const SamplerPass& pass, int x, int y, int picture_width);
+
   /// A pixel without neighbours.
   Sampler(SamplerKind kind, std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample);
-
-  /// The same sample for a pixel of a picture; for all pixels of a pass, because it costs less than a new one.
-  Sampler of_pixel(int x, int y, int picture_width) const;
 
   SamplerKind kind() const { return kind_; }
   std::uint32_t sample() const { return sample_; }
@@ -72,17 +82,14 @@ class Sampler {
   /// The same in every pass of this pixel; for choices that must be random over pixels but fixed over passes.
   float per_pixel(Decision decision) const;
 
-  static constexpr int kJointDimensions = 24;
-
  private:
-  std::uint64_t dimension_key(std::uint64_t key, Decision decision, int bounce, int index) const;
-  std::uint32_t joint_bits(std::size_t dimension, std::uint32_t pixel_key, std::uint32_t block_key) const;
+  Sampler(const SamplerPass& pass, const JointKeys& keys);
+  std::uint64_t key_of(Decision decision, int bounce, int index) const;
 
   SamplerKind kind_;
   std::uint32_t sample_;
-  std::uint32_t place_ = 0;  // of the pixel in its block
-  std::uint64_t seed_key_, pixel_key_, block_key_;
-  std::array<std::uint32_t, kJointDimensions> point_;  // of the pass, digits in reverse
+  std::uint64_t pixel_key_;
+  JointArray<float> joint_;  // numbers of the decisions that share a point of the pass
 };
 
 }  // namespace brume

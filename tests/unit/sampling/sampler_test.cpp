@@ -181,10 +181,10 @@ TEST(SobolSampler, InTheFirstPassBlocksOfPixelsHitEverySixteenthOnceAndTheirQuar
                            Decision::BounceDistance, Decision::LightChoice})
     for (const auto& [block_x, block_y] : {std::pair(0, 0), {7, 3}, {25, 60}}) {
       std::vector<int> hits(16), hits_of_quarter(16);
-      const Sampler pass(SamplerKind::Sobol, 5, 0, 0);
+      const SamplerPass pass(SamplerKind::Sobol, 5, 0);
       for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 4; ++x) {
-          const float u = pass.of_pixel(4 * block_x + x, 4 * block_y + y, kPictureWidth).u1(d);
+          const float u = Sampler(pass, 4 * block_x + x, 4 * block_y + y, kPictureWidth).u1(d);
           ++hits[static_cast<std::size_t>(u * 16)];
           ++hits_of_quarter[static_cast<std::size_t>(4 * (2 * (y / 2) + x / 2)) + static_cast<std::size_t>(u * 4)];
         }
@@ -198,7 +198,7 @@ TEST(SobolSampler, EveryPixelOfABlockHasAScrambledSequenceOfItsOwn) {
     for (int y = 0; y < 8; ++y) {
       std::vector<int> hits(64);
       for (std::uint32_t s = 0; s < 64; ++s) {
-        const float u = Sampler(SamplerKind::Sobol, 5, 0, s).of_pixel(x, y, 64).u1(Decision::DensityDistance);
+        const float u = Sampler({SamplerKind::Sobol, 5, s}, x, y, 64).u1(Decision::DensityDistance);
         ++hits[static_cast<std::size_t>(u * 64)];
       }
       EXPECT_EQ(hits, std::vector<int>(64, 1)) << x << ' ' << y;
@@ -206,22 +206,22 @@ TEST(SobolSampler, EveryPixelOfABlockHasAScrambledSequenceOfItsOwn) {
   // Behind the digits that are shared out neighbours know nothing of each other.
   std::vector<double> left, right;
   for (int k = 0; k < 8192; ++k) {
-    const Sampler pass(SamplerKind::Sobol, 5, 0, 37);
+    const SamplerPass pass(SamplerKind::Sobol, 5, 37);
     const int x = 4 * (k % 128), y = k / 128;
     const auto rest = [](float u) { return double(u) * 16 - std::floor(double(u) * 16); };
-    left.push_back(rest(pass.of_pixel(x, y, 512).u1(Decision::DensityDistance)));
-    right.push_back(rest(pass.of_pixel(x + 1, y, 512).u1(Decision::DensityDistance)));
+    left.push_back(rest(Sampler(pass, x, y, 512).u1(Decision::DensityDistance)));
+    right.push_back(rest(Sampler(pass, x + 1, y, 512).u1(Decision::DensityDistance)));
   }
   EXPECT_GT(chi_square_square(left, right, 16), kChiSquareSignificance);
   // Over blocks the numbers of one place are random.
   for (const Decision d : {Decision::DensityDistance, Decision::LightPoint}) {
     std::vector<double> here, beside, below;
     for (int k = 0; k < 8192; ++k) {
-      const Sampler pass(SamplerKind::Sobol, 5, 0, 3);
+      const SamplerPass pass(SamplerKind::Sobol, 5, 3);
       const int x = 4 * (k % 128), y = 4 * (k / 128);
-      here.push_back(static_cast<double>(pass.of_pixel(x, y, 512).u1(d)));
-      beside.push_back(static_cast<double>(pass.of_pixel(x + 4, y, 512).u1(d)));
-      below.push_back(static_cast<double>(pass.of_pixel(x, y + 4, 512).u1(d)));
+      here.push_back(static_cast<double>(Sampler(pass, x, y, 512).u1(d)));
+      beside.push_back(static_cast<double>(Sampler(pass, x + 4, y, 512).u1(d)));
+      below.push_back(static_cast<double>(Sampler(pass, x, y + 4, 512).u1(d)));
     }
     EXPECT_GT(chi_square_uniform(here, 64), kChiSquareSignificance);
     EXPECT_GT(chi_square_square(here, beside, 16), kChiSquareSignificance);
