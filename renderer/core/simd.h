@@ -8,6 +8,14 @@
 
 namespace brume {
 
+/// Floats in the widest vector.
+inline constexpr int kWidestVector = 16;
+
+/// `n` rounded up to what the widest vectors hold.
+constexpr std::size_t whole_vectors(int n) {
+  return static_cast<std::size_t>((n + kWidestVector - 1) / kWidestVector * kWidestVector);
+}
+
 /// The levels this processor can run and this program holds, best first, e.g. {"avx3", "avx2", "sse4", "ssse3",
 /// "scalar"}: Highway's target names in lower case ("avx3" is AVX-512; the last one is plain C++ and always there).
 /// Not narrowed by force_simd_level().

@@ -23,10 +23,11 @@ ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const Ray& ray
     : record_(record), density_(record, PlaceInSegment::LookedUp), lit_(lit) {
   const Vec3d to_pivot = Vec3d(pivot.position) - Vec3d(ray.origin), direction(ray.direction);
   const auto foot = static_cast<float>(dot(to_pivot, direction));
-  const auto off_ray = static_cast<float>(length(to_pivot - direction * static_cast<double>(foot)));
+  const double off2 = length_squared(to_pivot - direction * static_cast<double>(foot));
+  const auto off_ray = static_cast<float>(std::sqrt(off2)), radius = pivot.radius;
   // As for equi-angular sampling, a pivot on the ray is taken as if it were next to it.
   const float reach = std::max(std::abs(record.t[0] - foot), std::abs(record.t[record.n] - foot));
-  const float distance = std::max(std::hypot(off_ray, pivot.radius), 1e-7f * reach);
+  const float distance = std::max(static_cast<float>(std::sqrt(off2 + double(radius) * double(radius))), 1e-7f * reach);
   foot_ = {foot, distance};
 
   const auto n = static_cast<std::size_t>(record.n);
@@ -51,7 +52,8 @@ ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const Ray& ray
   product_weights(record.t, record.p, phase ? turned : nullptr, record.n, terms, weight, angle);
   // Few segments are near the light: what holds for the others is mended there.
   const float reach_of_near = PivotFoot::kNear * record.longest;
-  for (int i = find_segment(record, foot - reach_of_near); distance < reach_of_near && i < record.n; ++i) {
+  const int first_near = distance < reach_of_near ? find_segment(record, foot - reach_of_near) : record.n;
+  for (int i = first_near; i < record.n; ++i) {
     if (record.t[i] > foot + reach_of_near) break;
     if (!is_near(i) || angle[i] == 0) continue;
     const double a = record.t[i] - foot, delta = record.t[i + 1] - record.t[i], b = a + delta, d = distance;

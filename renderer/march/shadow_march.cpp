@@ -22,7 +22,9 @@ class Amounts {
         counts_(counts),
         amounts_(amounts),
         rows_(arena.alloc_span<ShadowRow>(kRows)) {
-    for (float** array : {&x_, &y_, &z_, &density_}) *array = arena.alloc_span<float>(kPoints + kWidestVector).data();
+    constexpr std::size_t kStride = kPoints + kWidestVector;
+    float* array = arena.alloc_span<float>(4 * kStride).data();
+    for (float** const a : {&x_, &y_, &z_, &density_}) *a = std::exchange(array, array + kStride);
   }
 
   void add(int ray, const Interval& span) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <span>
+#include <utility>
 
 #include "renderer/core/arena.h"
 #include "renderer/core/ray.h"
+#include "renderer/core/simd.h"
 #include "renderer/core/transform.h"
 
 namespace brume {
@@ -19,10 +21,11 @@ struct ShadowRays {
   int n = 0;
 
   ShadowRays(int capacity, Arena& arena) {
-    const auto alloc = [&] { return arena.alloc_span<float>(static_cast<std::size_t>(capacity)).data(); };
-    for (float*& axis : origin) axis = alloc();
-    for (float*& axis : direction) axis = alloc();
-    begin = alloc(), end = alloc(), offset = alloc();
+    const std::size_t stride = whole_vectors(capacity);
+    float* array = arena.alloc_span<float>(9 * stride).data();
+    for (float** const a :
+         {&origin[0], &origin[1], &origin[2], &direction[0], &direction[1], &direction[2], &begin, &end, &offset})
+      *a = std::exchange(array, array + stride);
   }
 
   void add(const Ray& ray, float its_offset) {

@@ -4,13 +4,13 @@
 #include <span>
 
 #include "renderer/core/ray.h"
+#include "renderer/core/simd.h"
 
 namespace brume {
 
-/// Values in the widest vector. Arrays are those of an Arena: 64-byte aligned, and readable and writable up to the next
-/// multiple of it. Arrays of edges have one value more than segments and are read and written from the second on: they
-/// must be longer by so many values.
-inline constexpr int kWidestVector = 16;
+// Arrays are those of an Arena: 64-byte aligned, and readable and writable up to the next multiple of it. Arrays of
+// edges have one value more than segments and are read and written from the second on: they must be longer by
+// kWidestVector values.
 
 // Sums are those of doubles, up to the rounding of the few values that are added in one vector: thousands of thin
 // segments add up to the optical depth within float rounding.

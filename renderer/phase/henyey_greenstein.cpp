@@ -1,8 +1,40 @@
 #include "renderer/phase/henyey_greenstein.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "renderer/phase/henyey_greenstein.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per instruction set
+
+#include <hwy/highway.h>
+
+#include "renderer/core/simd.h"
 #include "renderer/sampling/warps.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace brume::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// out[i] = scale / (least + slope (1 - sign cos_theta[i]))^(3/2)
+void Values(const float* cos_theta, int n, float least, float slope, float sign, float scale, float* out) {
+  const hn::CappedTag<float, kWidestVector> d;
+  const auto set = [d](float v) HWY_ATTR { return hn::Set(d, v); };
+  const auto one = set(1), two = set(2), zero = hn::Zero(d);
+  for (int i = 0; i < n; i += static_cast<int>(hn::Lanes(d))) {
+    const auto from_peak = hn::NegMulAdd(set(sign), hn::Load(d, cos_theta + i), one);
+    const auto denominator = hn::MulAdd(set(slope), hn::Min(hn::Max(from_peak, zero), two), set(least));
+    hn::Store(hn::Div(set(scale), hn::Mul(denominator, hn::Sqrt(denominator))), d, out + i);
+  }
+}
+
+}  // namespace
+}  // namespace brume::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace brume {
+
+HWY_EXPORT(Values);
 
 // 1 - |g| is small where it matters most: what is made of it is made in double.
 HenyeyGreenstein::HenyeyGreenstein(double g) : g_(std::clamp(g, -0.9999, 0.9999)) {
@@ -19,7 +51,7 @@ float HenyeyGreenstein::value(float cos_theta) const {
 }
 
 void HenyeyGreenstein::values(const float* cos_theta, int n, float* out) const {
-  for (int i = 0; i < n; ++i) out[i] = HenyeyGreenstein::value(cos_theta[i]);
+  HWY_DYNAMIC_DISPATCH(Values)(cos_theta, n, least_, slope_, g_ < 0 ? -1.0f : 1.0f, scale_, out);
 }
 
 PhaseSample HenyeyGreenstein::sample(Vec3 direction, Vec2 u) const {
@@ -38,3 +70,4 @@ PhaseSample HenyeyGreenstein::sample(Vec3 direction, Vec2 u) const {
 }
 
 }  // namespace brume
+#endif  // HWY_ONCE

@@ -21,7 +21,7 @@ class PhaseFunction {
   /// @param cos_theta in [-1, 1]; rounding beyond is clamped.   @return 1/sr, finite
   virtual float value(float cos_theta) const = 0;
 
-  /// value() of n cosines, to some float roundings.
+  /// value() of n cosines, to some float roundings. Arrays are those of an Arena: written in whole vectors.
   virtual void values(const float* cos_theta, int n, float* out) const {
     for (int i = 0; i < n; ++i) out[i] = value(cos_theta[i]);
   }
