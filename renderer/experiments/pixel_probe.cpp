@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer/integrators/direct_light.h"
+#include "renderer/integrators/light_batch.h"
 #include "renderer/integrators/marched_path.h"
 #include "renderer/integrators/path.h"
 #include "renderer/march/distribute.h"

@@ -16,10 +16,6 @@ template <int C>
 void direct_light(const MarchRecord<C>& record, const Ray& ray, Color beta, int bounce, int samples,
                   SampleContext& context, MarchedShadows<C>& shadows);
 
-/// The part of the record that a point of the light can reach.
-template <int C>
-Interval lit_part(const MarchRecord<C>& record, const Ray& ray, const Light& light, const LightPoint& point);
-
 /// Product sampling of the ray for one light, which lives in the arena scope that is open.
 /// @param record  distributed, with scattered() > 0.  @param pivot  the light's
 template <int C>

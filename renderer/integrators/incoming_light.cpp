@@ -18,7 +18,7 @@ template <int C>
 template <Scatterer<C> S>
 IncomingLight LightTechnique<C>::towards(const LightPoint& point, Vec3 x, const S& scatterer) const {
   const IncidentLight incident = light_.incident(point, x);
-  IncomingLight in{incident.wi, incident.distance, {}, point};
+  IncomingLight in{incident.wi, incident.distance, {}};
   if (is_black(incident.irradiance)) return in;
   in.scattered = to_color(scatterer.value(in.wi)) * incident.irradiance;
   const float share = chance_share(x, scatterer.peak());
@@ -29,7 +29,7 @@ IncomingLight LightTechnique<C>::towards(const LightPoint& point, Vec3 x, const 
 
 template <int C>
 template <Scatterer<C> S>
-IncomingLight LightTechnique<C>::draw(const LightPoint& point, Vec3 x, const S& scatterer) const {
+IncomingLight LightTechnique<C>::draw(LightPoint& point, Vec3 x, const S& scatterer) const {
   const Sampler& sampler = context_.sampler;
   const auto by_chance = [&] {
     return scatterer.sample(sampler.u1(Decision::PhaseLobe, bounce_, index_),
@@ -38,7 +38,7 @@ IncomingLight LightTechnique<C>::draw(const LightPoint& point, Vec3 x, const S& 
   if (point.kind == LightPoint::Kind::Environment) {
     const Vec3 wi = by_chance();
     const Color weight = to_color(scatterer.weight(wi));
-    IncomingLight in{wi, std::numeric_limits<float>::infinity(), weight * light_.environment_radiance(), point};
+    IncomingLight in{wi, std::numeric_limits<float>::infinity(), weight * light_.environment_radiance()};
     hide(in, x);
     return in;
   }
@@ -50,19 +50,20 @@ IncomingLight LightTechnique<C>::draw(const LightPoint& point, Vec3 x, const S& 
   }
   const Vec3 wi = by_chance();
   const auto hit = light_.hit({x, wi});
-  if (!hit || !(hit->pdf_w > 0)) return {wi, 0, {}, {}};
+  if (!hit || !(hit->pdf_w > 0)) return {wi, 0, {}};
+  point = hit->point;
   const float pdf = (1 - share) * hit->pdf_w + share * scatterer.pdf_w(wi);
-  IncomingLight in{wi, hit->t, to_color(scatterer.value(wi)) * hit->radiance / pdf, hit->point, pdf / hit->pdf_w};
+  IncomingLight in{wi, hit->t, to_color(scatterer.value(wi)) * hit->radiance / pdf, pdf / hit->pdf_w, true};
   hide(in, x);
   return in;
 }
 
 template class LightTechnique<1>;
 template class LightTechnique<3>;
-template IncomingLight LightTechnique<1>::draw(const LightPoint&, Vec3, const PhaseMixture<1>&) const;
-template IncomingLight LightTechnique<3>::draw(const LightPoint&, Vec3, const PhaseMixture<3>&) const;
-template IncomingLight LightTechnique<1>::draw(const LightPoint&, Vec3, const DiffuseReflection<1>&) const;
-template IncomingLight LightTechnique<3>::draw(const LightPoint&, Vec3, const DiffuseReflection<3>&) const;
+template IncomingLight LightTechnique<1>::draw(LightPoint&, Vec3, const PhaseMixture<1>&) const;
+template IncomingLight LightTechnique<3>::draw(LightPoint&, Vec3, const PhaseMixture<3>&) const;
+template IncomingLight LightTechnique<1>::draw(LightPoint&, Vec3, const DiffuseReflection<1>&) const;
+template IncomingLight LightTechnique<3>::draw(LightPoint&, Vec3, const DiffuseReflection<3>&) const;
 template IncomingLight LightTechnique<1>::towards(const LightPoint&, Vec3, const PhaseMixture<1>&) const;
 template IncomingLight LightTechnique<3>::towards(const LightPoint&, Vec3, const PhaseMixture<3>&) const;
 

@@ -14,8 +14,8 @@ struct IncomingLight {
   float distance = 0;  ///< world units; infinite for lights without a place
   Color scattered;     ///< Scatterer's value times radiance over pdf; black where there is nothing to see, or a surface
                        ///< in between
-  LightPoint point;    ///< where on the light
-  float pdf_ratio = 1;  ///< density of drawing wi at this point, over that of drawing it by a point of the light
+  float pdf_ratio = 1;     ///< density of drawing wi at this point, over that of drawing it by a point of the light
+  bool by_chance = false;  ///< drawn by the scatterer
 };
 
 /// Draws directions from vertices of a path towards one light. Where the light looks larger than the peak of what
@@ -29,7 +29,8 @@ template <int C> class LightTechnique {
       : light_(light), context_(context), bounce_(bounce), index_(index) {}
 
   /// A direction from x, by chance or towards `point`, which was drawn beforehand.
-  template <Scatterer<C> S> IncomingLight draw(const LightPoint& point, Vec3 x, const S& scatterer) const;
+  /// @param point  becomes the one that was met, where that is another one
+  template <Scatterer<C> S> IncomingLight draw(LightPoint& point, Vec3 x, const S& scatterer) const;
 
   /// The direction towards `point`, for a caller who has drawn x about that very point; carries the scatterer's value
   /// times radiance over the pdf of the point alone, and the pdf_ratio that draw() has there.

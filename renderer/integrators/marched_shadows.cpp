@@ -14,11 +14,11 @@ MarchedShadows<C>::MarchedShadows(int bounce, SampleContext& context)
       transmittances_(context.arena.alloc_span<Spectrum<C>>(kWaiting)) {}
 
 template <int C>
-void MarchedShadows<C>::add(const Light&, const Ray& shadow, Color carried, const LightNumbers& numbers, int k) {
+void MarchedShadows<C>::add(const Light&, const Ray& shadow, Color carried, const ShadowNumbers& numbers) {
   if (rays_.n == kWaiting) march();
   carried_[static_cast<std::size_t>(rays_.n)] = carried;
-  index_[static_cast<std::size_t>(rays_.n)] = numbers.index(k);
-  rays_.add(shadow, numbers.shadow_offset(k));
+  index_[static_cast<std::size_t>(rays_.n)] = numbers.index;
+  rays_.add(shadow, numbers.offset);
 }
 
 template <int C> void MarchedShadows<C>::play_roulette() {

@@ -16,8 +16,7 @@ template <int C> class MarchedShadows {
   MarchedShadows(int bounce, SampleContext& context);
 
   /// @param carried  what the sample adds to the radiance if nothing is in the shadow ray's way
-  /// @param k  number of the sample among those of its light
-  void add(const Light& light, const Ray& shadow, Color carried, const LightNumbers& numbers, int k);
+  void add(const Light& light, const Ray& shadow, Color carried, const ShadowNumbers& numbers);
 
   /// Of all samples so far.
   Color light();

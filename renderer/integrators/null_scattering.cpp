@@ -51,15 +51,15 @@ template <int C> struct Leg {
     TrackedShadows<C> shadows(bounce, context);
     for_light_samples(bounce, 0, context.scene.light_samples, context,
                       [&](const Light& light, float factor, const LightNumbers& numbers, int k) {
-                        const LightPoint point = light.sample_point(numbers.point(k));
+                        LightPoint point = light.sample_point(numbers.point(k));
                         const IncomingLight in =
                             LightTechnique<C>(light, context, bounce, numbers.index(k)).draw(point, x, phase);
                         if (is_black(in.scattered)) return;
                         const float mine = tracked * in.pdf_ratio;
-                        const float other = mean_of(path.p) * equiangular_pdf(light, in.point, at.t, inside);
+                        const float other = mean_of(path.p) * equiangular_pdf(light, point, at.t, inside);
                         const Color carried = value * in.scattered * (factor * mine / (mine + other));
                         context.note(bounce, x, DistanceTechnique::Density, carried);
-                        shadows.add(light, {x, in.wi, {0, in.distance}}, carried, numbers, k);
+                        shadows.add(light, {x, in.wi, {0, in.distance}}, carried, numbers.of_shadow(k));
                       });
     return shadows.light();
   }
@@ -94,7 +94,7 @@ template <int C> struct Leg {
           const float other = tracked_pdf(n, at.sigma_t) * in.pdf_ratio;
           const Color carried = to_color(path.f * n * at.sigma_s) * in.scattered * (factor / (mine + other));
           context.note(bounce, x, DistanceTechnique::Equiangular, carried);
-          shadows.add(light, {x, in.wi, {0, in.distance}}, carried, numbers, k);
+          shadows.add(light, {x, in.wi, {0, in.distance}}, carried, numbers.of_shadow(k));
         });
     return shadows.light();
   }

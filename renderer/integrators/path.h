@@ -68,15 +68,15 @@ void for_light_samples(int bounce, int place, int samples, const SampleContext& 
 
 /// One sample of the light that a vertex of a path scatters once towards where the path comes from: factor * value * L,
 /// handed to the shadows, which multiply it by the transmittance of its shadow ray.
-/// @param shadows  MarchedShadows or TrackedShadows: add(light, shadow ray, carried, numbers, k)
+/// @param shadows  MarchedShadows or TrackedShadows: add(light, shadow ray, carried, its numbers)
 template <int C, Scatterer<C> S, class Shadows>
 void light_sample_at(Vec3 x, const S& scatterer, Color factor, const Light& light, const LightNumbers& numbers,
                      int bounce, int k, SampleContext& context, Shadows& shadows) {
-  const LightPoint point = light.sample_point(numbers.point(k));
+  LightPoint point = light.sample_point(numbers.point(k));
   const IncomingLight in = LightTechnique<C>(light, context, bounce, numbers.index(k)).draw(point, x, scatterer);
   if (is_black(in.scattered)) return;
   context.note(bounce, x, DistanceTechnique::Other, factor * in.scattered);
-  shadows.add(light, Ray{x, in.wi, {0, in.distance}}, factor * in.scattered, numbers, k);
+  shadows.add(light, Ray{x, in.wi, {0, in.distance}}, factor * in.scattered, numbers.of_shadow(k));
 }
 
 /// Light that a vertex of a path scatters once towards where the path comes from: the mean over the light samples of

@@ -15,11 +15,11 @@ template <int C> class RayMarchIntegrator::Shadows {
   Shadows(const RayMarchIntegrator& integrator, int bounce, SampleContext& context)
       : integrator_(integrator), scene_(context.scene), marched_(bounce, context) {}
 
-  void add(const Light& light, const Ray& shadow, Color carried, const LightNumbers& numbers, int k) {
+  void add(const Light& light, const Ray& shadow, Color carried, const ShadowNumbers& numbers) {
     if (const DeepShadowMap* map = integrator_.shadow_map(scene_, light))
       cached_ += carried * map->transmittance(shadow.origin);
     else
-      marched_.add(light, shadow, carried, numbers, k);
+      marched_.add(light, shadow, carried, numbers);
   }
   Color light() { return cached_ + marched_.light(); }
 

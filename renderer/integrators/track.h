@@ -33,10 +33,10 @@ template <int C> class TrackedShadows {
  public:
   TrackedShadows(int bounce, SampleContext& context) : bounce_(bounce), context_(context) {}
 
-  void add(const Light&, const Ray& shadow, Color carried, const LightNumbers& numbers, int k) {
+  void add(const Light&, const Ray& shadow, Color carried, const ShadowNumbers& numbers) {
     ++context_.statistics.shadow_rays;
-    sum_ += carried *
-            to_color(tracked_transmittance<C>(shadow, Decision::ShadowFlight, bounce_, numbers.index(k), context_));
+    sum_ +=
+        carried * to_color(tracked_transmittance<C>(shadow, Decision::ShadowFlight, bounce_, numbers.index, context_));
   }
 
   Color light() const { return sum_; }

@@ -9,6 +9,7 @@ namespace brume {
 class ConstantEnvironment final : public Light {
  public:
   explicit ConstantEnvironment(Color radiance) : radiance_(radiance) {}
+  LightPoint::Kind kind() const override { return LightPoint::Kind::Environment; }
   LightPoint sample_point(Vec2) const override;
   IncidentLight incident(const LightPoint& point, Vec3 x) const override;
   Color environment_radiance() const override { return radiance_; }

@@ -12,6 +12,7 @@ class DirectionalLight final : public Light {
   /// @param travel  unit direction in which the light travels, from the light to the scene
   /// @param angular_diameter  radians, in [0, pi]
   DirectionalLight(Vec3 travel, Color irradiance, float angular_diameter = 0);
+  LightPoint::Kind kind() const override { return LightPoint::Kind::Distant; }
   LightPoint sample_point(Vec2 u) const override;
   IncidentLight incident(const LightPoint& point, Vec3 x) const override;
   std::optional<LightHit> hit(const Ray& ray) const override;

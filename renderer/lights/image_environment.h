@@ -11,6 +11,7 @@ class ImageEnvironment final : public Light {
   /// @param scale  radiance of a picture's value of 1, W/(sr m^2).  @param rotation  radians, counter-clockwise seen
   /// from above
   ImageEnvironment(std::shared_ptr<const EnvironmentMap> map, Color scale, float rotation);
+  LightPoint::Kind kind() const override { return LightPoint::Kind::Distant; }
   LightPoint sample_point(Vec2 u) const override;
   IncidentLight incident(const LightPoint& point, Vec3 x) const override;
   std::optional<LightHit> hit(const Ray& ray) const override;

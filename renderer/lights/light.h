@@ -59,6 +59,9 @@ class Light {
  public:
   virtual ~Light() = default;
 
+  /// Of all its points.
+  virtual LightPoint::Kind kind() const { return LightPoint::Kind::Finite; }
+
   /// @param u  uniform in [0,1)^2
   virtual LightPoint sample_point(Vec2 u) const = 0;
 

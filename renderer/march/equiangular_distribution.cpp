@@ -2,15 +2,12 @@
 
 namespace brume {
 
-PivotFoot EquiangularDistribution::foot_of(const Ray& ray, Vec3 pivot, Interval span) {
+PivotFoot foot_of(const Ray& ray, Vec3 pivot, Interval span) {
   const Vec3d to_pivot = Vec3d(pivot) - Vec3d(ray.origin), direction(ray.direction);
   const double foot = dot(to_pivot, direction);
   const double reach = std::max(std::abs(span.begin - foot), std::abs(span.end - foot));
-  return {foot, std::max(length(to_pivot - direction * foot), 1e-7 * reach)};
+  return {foot, std::max(length(to_pivot - direction * foot), kLeastPivotDistance * reach)};
 }
-
-EquiangularDistribution::EquiangularDistribution(const Ray& ray, Vec3 pivot, Interval span)
-    : EquiangularDistribution(foot_of(ray, pivot, span), span) {}
 
 // In double: with the pivot 1e-6 of the span from the ray, float angles would leave a handful of distinct distances.
 EquiangularDistribution::EquiangularDistribution(PivotFoot foot, Interval span)
@@ -46,14 +43,6 @@ DistanceSample EquiangularDistribution::sample(float u) const {
 float EquiangularDistribution::pdf(float t) const {
   if (t < span_.begin || t > span_.end) return 0;
   return static_cast<float>(pdf_at(t - foot_.t));
-}
-
-float EquiangularDistribution::probability(Interval far_part) const {
-  if (d_theta_ == 0) return static_cast<float>(far_part.length() / (b_ - a_));
-  const double a = far_part.begin - foot_.t, b = far_part.end - foot_.t;
-  // atan x by its series: x is below 0.17, or the part is near.
-  const double x = foot_.distance * (b - a) / (foot_.distance * foot_.distance + a * b), x2 = x * x;
-  return static_cast<float>(x * (1 - x2 * (1.0 / 3 - x2 * (1.0 / 5 - x2 * (1.0 / 7)))) / d_theta_);
 }
 
 }  // namespace brume

@@ -19,11 +19,18 @@ struct PivotFoot {
   /// Where the pivot is farther from a part of the ray than so many of its lengths, 1/r^2 is taken as constant in it.
   static constexpr float kNear = 6;
 
+  /// Whether 1/r^2 varies within a part of the ray.
   bool is_near(Interval part) const {
     const double reach = static_cast<double>(kNear * part.length());
     return distance < reach && std::abs(0.5 * (static_cast<double>(part.begin) + part.end) - t) < reach;
   }
 };
+
+/// A pivot on the ray is taken as if it were away from it by this share of the way to the farther end of the span.
+inline constexpr double kLeastPivotDistance = 1e-7;
+
+/// @param span  world units, not empty
+PivotFoot foot_of(const Ray& ray, Vec3 pivot, Interval span);
 
 /// Equi-angular sampling of a span of a ray about a pivot: pdf(t) = D / (d_theta (D^2 + s^2)), where s = t - foot is
 /// measured from the foot of the pivot on the ray and D is the pivot's distance from the ray.
@@ -34,12 +41,12 @@ struct PivotFoot {
 ///   d_theta = atan2(D (b - a), D^2 + a b),
 /// and where the foot lies outside the span
 ///   s = a + tan(phi) (D^2 + a^2) / (D - a tan(phi)),  phi = u d_theta.
-/// A pivot on the ray (D = 0) is taken as if it were 1e-7 of the span away from it, by sample() and pdf() alike. Where
-/// even so the angle vanishes, both are uniform.
+/// Where the angle vanishes, sample() and pdf() are uniform.
 class EquiangularDistribution {
  public:
   /// @param span  world units, not empty
-  EquiangularDistribution(const Ray& ray, Vec3 pivot, Interval span);
+  EquiangularDistribution(const Ray& ray, Vec3 pivot, Interval span)
+      : EquiangularDistribution(foot_of(ray, pivot, span), span) {}
 
   EquiangularDistribution(PivotFoot foot, Interval span);
 
@@ -49,13 +56,7 @@ class EquiangularDistribution {
   /// Per world unit; 0 outside the span.
   float pdf(float t) const;
 
-  /// Probability of a part of the span that is far from the pivot.
-  float probability(Interval far_part) const;
-
-  const PivotFoot& foot() const { return foot_; }
-
  private:
-  static PivotFoot foot_of(const Ray& ray, Vec3 pivot, Interval span);
   double pdf_at(double s) const;
 
   Interval span_;

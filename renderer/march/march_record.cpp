@@ -116,6 +116,7 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
     rec.longest = std::max(rec.longest, stretch.count == 1 ? stretch.span.length() : stretch.step);
     rec.n += stretch.count;
   }
+  if (stretches.size() == 1) rec.inverse_step = 1 / rec.longest;
   counts.segments += static_cast<std::uint64_t>(rec.n);
 
   const auto n = static_cast<std::size_t>(rec.n);

@@ -44,7 +44,8 @@ template <int C> struct MarchRecord {
   bool* homogeneous = nullptr;          ///< [n] nothing varies inside the segment
   float offset = 0;                     ///< in [0,1): where inside every other segment the medium was looked up
 
-  float longest = 0;  ///< bound of the segments' lengths
+  float longest = 0;       ///< bound of the segments' lengths
+  float inverse_step = 0;  ///< of segments that are as long as each other, but for the last; 0: they are not
 
   std::array<float*, C> tau = {};            ///< [n + 1] optical depth from t[0] to each edge
   std::array<float*, C> transmittance = {};  ///< [n + 1] exp(-tau)

@@ -13,7 +13,8 @@ template <int C> struct RayPoint {
   Spectrum<C> transmittance;  ///< from the start of the record
 };
 
-/// The segment that holds t, by binary search in O(log n).  @param t  inside record.span()
+/// The segment that holds t: reckoned where segments are equal, otherwise by binary search in O(log n).  @param t
+/// inside record.span()
 template <int C> int find_segment(const MarchRecord<C>& record, float t);
 
 template <int C> RayPoint<C> evaluate(const MarchRecord<C>& record, float t, int segment);

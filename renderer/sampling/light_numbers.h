@@ -7,6 +7,12 @@
 
 namespace brume {
 
+/// What a light sample is told from all others by, and the number of its shadow ray.
+struct ShadowNumbers {
+  int index;     ///< at this bounce
+  float offset;  ///< in [0,1): where inside the steps
+};
+
 /// The random numbers of `count` samples of one light at one vertex of a path, spread evenly. Each sample on its own
 /// has independent uniform numbers, so a mean over the samples is unbiased. Where the sampler follows a sequence, one
 /// number of the pass shifts all of them at once (systematic sampling; a lattice in more dimensions), so that the
@@ -33,9 +39,10 @@ class LightNumbers {
     return {wrapped(point_.x, k, 0.75487767f), wrapped(point_.y, k, 0.56984029f)};
   }
 
-  /// Where inside the steps of the shadow ray: multiples of the golden ratio.
-  float shadow_offset(int k) const {
-    return together() ? wrapped(offset_, k, 0.61803399f) : sampler_.u1(Decision::ShadowOffset, bounce_, index(k));
+  /// Offsets are multiples of the golden ratio.
+  ShadowNumbers of_shadow(int k) const {
+    return {index(k),
+            together() ? wrapped(offset_, k, 0.61803399f) : sampler_.u1(Decision::ShadowOffset, bounce_, index(k))};
   }
 
   /// Numbers for distances, one in each of `strata` equal parts of [0, 1).

@@ -7,6 +7,7 @@
 #include "renderer/march/mis.h"
 #include "renderer/sampling/sampler.h"
 #include "tests/support/statistics.h"
+#include "tests/unit/march/pivot_placements.h"
 
 namespace brume {
 namespace {
@@ -16,23 +17,6 @@ const Ray kRay{{0, 0, 0}, {1, 0, 0}};
 float random_number(std::uint32_t i) {
   return Sampler(SamplerKind::Independent, 6, 1, i).u1(Decision::EquiangularDistance);
 }
-
-/// Angle under which the pivot (foot at 0, distance D) sees [a, b]; a difference that is safe for moderate values.
-double angle(double a, double b, double D) { return std::atan2(D * (b - a), D * D + a * b); }
-
-struct Placement {
-  const char* what;
-  double foot, distance;
-  Interval span;
-};
-
-const Placement kPlacements[] = {
-    {"pivot beside the middle", 5, 1, {0, 10}},        {"pivot close to the ray", 3, 1e-3, {0, 10}},
-    {"pivot very close to the ray", 3, 1e-6, {0, 10}}, {"pivot far from the ray", 5, 1e4, {0, 10}},
-    {"foot before the span", -3, 2, {1, 4}},           {"foot behind the span", 9, 2, {1, 4}},
-    {"foot just outside", 0.999, 1e-6, {1, 4}},        {"foot on the begin of the span", 1, 0.1, {1, 4}},
-    {"foot on the end of the span", 4, 0.1, {1, 4}},   {"foot far away", -1000, 1, {0, 1}},
-};
 
 EquiangularDistribution sampling_of(const Placement& s) {
   return {kRay, {static_cast<float>(s.foot), static_cast<float>(s.distance), 0}, s.span};

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-#include "renderer/core/simd.h"
+#include "tests/support/simd_levels.h"
 #include "tests/unit/media/vdb_test_tools.h"
 
 namespace brume {
@@ -49,11 +49,8 @@ BrickGrid bricks_of(const openvdb::FloatGrid& grid) {
 }
 
 /// Each test runs at every SIMD level of this machine.
-class BrickLookup : public testing::TestWithParam<std::string> {
+class BrickLookup : public AtSimdLevel {
  protected:
-  BrickLookup() { EXPECT_TRUE(force_simd_level(GetParam()).ok()); }
-  ~BrickLookup() override { EXPECT_TRUE(force_simd_level("auto").ok()); }
-
   /// Against OpenVDB at random positions in and round the grid.
   static void expect_equals_box_sampler(const openvdb::FloatGrid& reference, int n = 20000) {
     const BrickGrid grid = bricks_of(reference);
@@ -302,8 +299,7 @@ TEST_P(BrickLookup, SeesACubeTheSameFrom26Sides) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Levels, BrickLookup, testing::ValuesIn(simd_levels()),
-                         [](const auto& level) { return level.param; });
+INSTANTIATE_TEST_SUITE_P(Levels, BrickLookup, testing::ValuesIn(simd_levels()), simd_level_name);
 
 }  // namespace
 }  // namespace brume

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "renderer/core/simd.h"
 #include "tests/support/statistics.h"
 
 namespace brume {
@@ -255,6 +256,21 @@ TEST(Sampler, PerPixelNumberIsFixedOverPassesUniformOverPixelsAndUnlikeTheOthers
     const double bound = sidak_z(1e-3, kDecisionCount) / std::sqrt(8192.0);
     for (const Decision d : kDecisions) EXPECT_LT(std::abs(correlation(values, over_pixels(kind, d, 8192))), bound);
   }
+}
+
+TEST(SobolSampler, NumbersHaveTheSameBitsAtEverySimdLevel) {
+  const auto numbers = [] {
+    std::vector<float> all;
+    for (std::uint32_t s = 0; s < 100; ++s)
+      for (const Decision d : kDecisions) all.push_back(Sampler({SamplerKind::Sobol, 5, s}, 17, 3, 64).u1(d));
+    return all;
+  };
+  const std::vector<float> best = numbers();
+  for (const std::string& level : simd_levels()) {
+    ASSERT_TRUE(force_simd_level(level).ok());
+    EXPECT_EQ(numbers(), best) << level;
+  }
+  ASSERT_TRUE(force_simd_level("auto").ok());
 }
 
 TEST(Sampler, NumbersDependOnNothingButTheArguments) {

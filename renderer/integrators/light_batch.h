@@ -1,0 +1,79 @@
+// Light samples of one ray, taken through their steps together.
+#pragma once
+
+#include "renderer/integrators/incoming_light.h"
+#include "renderer/integrators/marched_shadows.h"
+#include "renderer/march/density_sampling.h"
+#include "renderer/march/equiangular_lanes.h"
+
+namespace brume {
+
+/// The part of the record that a point of the light can reach.
+template <int C>
+Interval lit_part(const MarchRecord<C>& record, const Ray& ray, const Light& light, const LightPoint& point) {
+  return intersect(record.span(), light.lit_part(point, {ray.origin, ray.direction, record.span()}));
+}
+
+/// Samples of the light that is scattered once along a recorded ray towards its origin. Each is a point of a light and
+/// a place on the ray; what it carries, sigma_s T L_scattered over the densities, is handed to the shadows. A step of a
+/// sample waits for the one before it, but not for those of other samples, so each step is made for all of them: a
+/// processor works on several at once, and on as many as a vector holds where the step is a kernel. Lives in the arena
+/// scope that was open when it was made.
+template <int C> class LightBatch {
+ public:
+  /// @param record  distributed, with scattered() > 0.  @param beta  throughput at its start.  @param bounce  scattered
+  /// rays so far
+  LightBatch(const MarchRecord<C>& record, const Ray& ray, Color beta, int bounce, SampleContext& context,
+             MarchedShadows<C>& shadows);
+
+  /// What the samples of a technique have in common.
+  struct Technique {
+    const Light& light;
+    DistanceTechnique distance;
+    float factor;   ///< one over the samples of this technique, on average over the passes
+    bool combined;  ///< with the other one of MIS, which might have drawn the same distance and direction
+  };
+
+  /// A sample at a place that was drawn without regard to the point.  @param u_point  of the light
+  void add_at(const Technique& technique, const SampledPoint<C>& drawn, Vec2 u_point, const ShadowNumbers& numbers);
+
+  /// A sample whose distance is drawn about its point by equi-angular sampling: about that very point the segment is
+  /// chosen, and the distance, too, where the segment is homogeneous or so near to the point that 1/r^2 varies in it,
+  /// and what scatters there is looked up. Elsewhere it is the place where the segment was looked up
+  /// (PlaceInSegment::LookedUp), with the mean of the distribution's density over the segment.
+  /// @param u  of the distance
+  void add_about(const Technique& technique, float u, Vec2 u_point, const ShadowNumbers& numbers);
+
+  /// Takes the samples that are left through their steps.
+  void finish();
+
+ private:
+  static constexpr int kCapacity = 16;
+  struct Sample;
+
+  void add(const Technique& technique, float drawn, Vec2 u_point, const ShadowNumbers& numbers);
+  void place_about(EquiangularLanes& lanes);
+  /// @return whether it was met by chance, in another point, at which the lane is aimed now
+  bool look_at_light(int k, EquiangularLanes& lanes);
+  void weigh(const EquiangularLanes& lanes);
+  void hand_over(int k);
+
+  Interval segment_span(int i) const { return {record_.t[i], record_.t[i + 1]}; }
+  bool follows(const EquiangularLanes& lanes, int lane, int segment) const {
+    return record_.homogeneous[segment] || lanes.is_near(lane, segment_span(segment));
+  }
+
+  const MarchRecord<C>& record_;
+  const Ray& ray_;
+  Color beta_;
+  int bounce_;
+  SampleContext& context_;
+  MarchedShadows<C>& shadows_;
+  DensitySampling<C> density_;
+  Sample* samples_;          // [kCapacity], like the others
+  RayPoint<C>* points_;      // where they are
+  IncomingLight* incoming_;  // what arrives there
+  int n_ = 0;
+};
+
+}  // namespace brume
