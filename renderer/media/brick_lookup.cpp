@@ -20,8 +20,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr int kChunk = 16;  // points that are skipped together when all their bricks are empty
 // Points that go through the phases together. One phase reads what the one before wrote in pieces of another size; with
 // 16 points these writes are still on their way to the cache and every read waits for them (AVX-512 on Zen 5: 8 cycles
-// a point with 16, 5.8 with 32, 4.8 with 64 or more).
-constexpr int kBlock = 64;
+// a point with 16, 5.8 with 32, 4.8 with 64 or more). With 128 a usual ray is one block, without a small one behind it
+// (3 % of a whole camera ray); narrower vectors take longer anyway.
+constexpr int kBlock = HWY_MAX_BYTES == 64 ? 128 : 64;
 
 /// Hides from the optimiser where `p` comes from, so that what was written through it is really in memory: left alone,
 /// GCC 12 takes the vectors apart lane by lane in registers, which costs more than the round trip through the cache.
