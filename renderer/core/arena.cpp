@@ -16,11 +16,10 @@ void Arena::add_block(std::size_t size) {
 }
 
 std::byte* Arena::alloc_in_next_block(std::size_t n) {
-  while (blocks_[block_].size - top_ < n) {
+  while (static_cast<std::size_t>(end_ - top_) < n) {
     if (block_ + 1 == blocks_.size()) add_block(std::max(n, 2 * blocks_[block_].size));
-    used_before_ += top_;
-    top_ = 0;
-    ++block_;
+    used_before_ += static_cast<std::size_t>(top_ - begin(block_));
+    use_block(block_ + 1, begin(block_ + 1));
   }
   return alloc_bytes(n);
 }

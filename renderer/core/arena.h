@@ -20,7 +20,10 @@ namespace brume {
 /// work, pop after.
 class Arena {
  public:
-  explicit Arena(std::size_t first_block_bytes = 16 * 1024) { add_block(first_block_bytes); }
+  explicit Arena(std::size_t first_block_bytes = 16 * 1024) {
+    add_block(first_block_bytes);
+    use_block(0, begin(0));
+  }
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
 
@@ -31,9 +34,9 @@ class Arena {
     return {reinterpret_cast<T*>(alloc_bytes(n * sizeof(T))), n};
   }
 
-  std::size_t used_bytes() const { return used_before_ + top_; }
-  std::size_t high_water_bytes() const { return high_water_; }
-  void reset_high_water() { high_water_ = used_bytes(); }
+  std::size_t used_bytes() const { return used_before_ + static_cast<std::size_t>(top_ - begin(block_)); }
+  std::size_t high_water_bytes() const { return std::max(high_water_, used_bytes()); }
+  void reset_high_water() { high_water_ = 0; }
 
  private:
   friend class ArenaScope;
@@ -44,16 +47,19 @@ class Arena {
     std::size_t size;
   };
   struct Mark {
-    std::size_t block, top, used_before;
+    std::size_t block;
+    std::byte* top;
+    std::size_t used_before;
     int depth;
   };
 
+  std::byte* begin(std::size_t block) const { return blocks_[block].bytes.get(); }
+
   std::byte* alloc_bytes(std::size_t n) {
     n = (n + kAlignment - 1) / kAlignment * kAlignment;
-    if (blocks_[block_].size - top_ < n) return alloc_in_next_block(n);
-    std::byte* p = blocks_[block_].bytes.get() + top_;
+    if (static_cast<std::size_t>(end_ - top_) < n) return alloc_in_next_block(n);
+    std::byte* const p = top_;
     top_ += n;
-    high_water_ = std::max(high_water_, used_bytes());
     poison(p, n);
     return p;
   }
@@ -64,10 +70,19 @@ class Arena {
 #endif
   }
   void add_block(std::size_t size);
+  void use_block(std::size_t block, std::byte* top) {
+    block_ = block;
+    top_ = top;
+    end_ = begin(block) + blocks_[block].size;
+  }
   void rewind(const Mark& mark) {
     BRUME_DCHECK(mark.depth, ==, depth_);
-    if (block_ == mark.block) poison(blocks_[block_].bytes.get() + mark.top, top_ - mark.top);
-    block_ = mark.block;
+    // Since the mark the water has only risen, or another scope has ended.
+    high_water_ = std::max(high_water_, used_bytes());
+    if (block_ == mark.block)
+      poison(mark.top, static_cast<std::size_t>(top_ - mark.top));
+    else
+      use_block(mark.block, mark.top);
     top_ = mark.top;
     used_before_ = mark.used_before;
     --depth_;
@@ -75,10 +90,11 @@ class Arena {
 
   std::vector<Block> blocks_;
   std::size_t block_ = 0;        // the block in use
-  std::size_t top_ = 0;          // bytes used in it
+  std::byte* top_;               // where its free bytes begin
+  std::byte* end_;               // and end
   std::size_t used_before_ = 0;  // bytes used in the blocks below it
-  std::size_t high_water_ = 0;
-  int depth_ = 0;  // open scopes
+  std::size_t high_water_ = 0;   // up to the last end of a scope
+  int depth_ = 0;                // open scopes
 };
 
 /// Marks the arena; its end rewinds to the mark. Scopes nest and must end in reverse order.
