@@ -69,9 +69,10 @@ template <int C> struct LightSampling {
     if (combined) {
       // Half of the samples to each technique; of an odd number the odd one alternates between passes, starting with
       // either at random, so that every single pass is unbiased over the pixels.
-      const bool odd_pass =
-          (context.sampler.sample() & 1) != (context.sampler.per_pixel(Decision::TechniquePhase) < 0.5f);
-      of_density = (samples + (odd_pass ? 1 : 0)) / 2;
+      of_density = samples / 2;
+      if (samples % 2 != 0 &&
+          (context.sampler.sample() % 2 != 0) != (context.sampler.per_pixel(Decision::TechniquePhase) < 0.5f))
+        ++of_density;
     }
     const float share = (combined ? 2 : 1) * weight / static_cast<float>(samples);
     // Strata: as many as the technique has samples in this very pass, or they would not cover [0,1) just once.

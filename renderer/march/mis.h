@@ -1,6 +1,8 @@
 // Multiple importance sampling.
 #pragma once
 
+#include <algorithm>
+
 #include "renderer/scene/settings.h"
 
 namespace brume {
@@ -10,12 +12,10 @@ namespace brume {
 /// Divided through by the larger pdf, so that no square overflows.
 inline float mis_weight(MisHeuristic heuristic, float pdf, float other_pdf) {
   if (!(pdf > 0)) return 0;
-  if (pdf >= other_pdf) {
-    const float r = other_pdf / pdf;
-    return 1 / (1 + (heuristic == MisHeuristic::Power ? r * r : r));
-  }
-  const float r = pdf / other_pdf;
-  return heuristic == MisHeuristic::Power ? r * r / (1 + r * r) : r / (1 + r);
+  // Which of the two is larger is anyone's guess, a processor's, too: no branch on it.
+  const float r = std::min(pdf, other_pdf) / std::max(pdf, other_pdf);
+  const float smaller = heuristic == MisHeuristic::Power ? r * r : r;
+  return (pdf >= other_pdf ? 1 : smaller) / (1 + smaller);
 }
 
 }  // namespace brume

@@ -3,6 +3,7 @@
 
 #include "renderer/march/march_record.h"
 #include "renderer/march/shadow_rays.h"
+#include "renderer/march/step_loops.h"
 
 namespace brume {
 
@@ -19,8 +20,8 @@ template <int C>
 void shadow_transmittances(std::span<const Medium> media, const ShadowRays& rays, float step, float time, Arena& arena,
                            MarchCounts& counts, Spectrum<C>* transmittances) {
   shadow_optical_depths<C>(media, rays, step, time, arena, counts, transmittances);
-  for (int r = 0; r < rays.n; ++r)
-    for (float& v : transmittances[r].v) v = std::exp(-v);
+  static_assert(sizeof(Spectrum<C>) == C * sizeof(float));
+  if (rays.n > 0) exp_minus(transmittances[0].v, C * rays.n);
 }
 
 /// The same for a single ray.

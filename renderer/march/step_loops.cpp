@@ -263,6 +263,14 @@ template <class Carry> HWY_INLINE void sum_up(const float* p, int n, float* cdf)
   }
 }
 
+void ExpMinus(float* values, int n) {
+  const D d;
+  for (int i = 0; i < n; i += lanes()) {
+    const auto some = hn::FirstN(d, static_cast<std::size_t>(n - i));
+    hn::BlendedStore(exp_minus(hn::MaskedLoad(some, d, values + i)), some, d, values + i);
+  }
+}
+
 void Attenuate(const float* t, const float* sigma_t, int n, const Attenuation& out) {
   attenuate_with(t, sigma_t, n, out, [](int, V) HWY_ATTR {});
 }
@@ -290,6 +298,7 @@ HWY_EXPORT(WriteEdges);
 HWY_EXPORT(Sum);
 HWY_EXPORT(SetScaled);
 HWY_EXPORT(AddScaled);
+HWY_EXPORT(ExpMinus);
 HWY_EXPORT(Attenuate);
 HWY_EXPORT(AttenuateAndSum);
 HWY_EXPORT(RunningSum);
@@ -305,6 +314,7 @@ void set_scaled(const float* values, float factor, int n, float* out) {
 void add_scaled(const float* values, float factor, int n, float* out) {
   HWY_DYNAMIC_DISPATCH(AddScaled)(values, factor, n, out);
 }
+void exp_minus(float* values, int n) { HWY_DYNAMIC_DISPATCH(ExpMinus)(values, n); }
 void attenuate(const float* t, const float* sigma_t, int n, const Attenuation& out) {
   HWY_DYNAMIC_DISPATCH(Attenuate)(t, sigma_t, n, out);
 }

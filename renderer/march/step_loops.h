@@ -34,6 +34,9 @@ void add_scaled(const float* values, float factor, int n, float* out);
 
 float sum(const float* values, int n);
 
+/// values[i] = exp(-values[i]), for values >= 0.  @param values  any alignment; nothing behind `n` is touched
+void exp_minus(float* values, int n);
+
 /// What edges t and extinction sigma_t do to light on its way to t[0].
 struct Attenuation {
   float* tau;            ///< [n + 1] sum_{j < i} sigma_t[j] (t[j + 1] - t[j])
