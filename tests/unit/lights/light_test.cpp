@@ -176,6 +176,7 @@ TEST(LightRegistry, EveryKindMadeFromItsDefaultsGivesFiniteLight) {
     float brightest = max_channel((*light)->environment_radiance());
     for (std::uint32_t i = 0; i < 200; ++i) {
       const LightPoint point = (*light)->sample_point(random_pair(i));
+      ASSERT_EQ(point.kind, (*light)->kind()) << type.table->key;
       if (point.kind == LightPoint::Kind::Environment) continue;
       for (const Vec3 x : {Vec3(0, 0, 0), Vec3(0, 0, 10), Vec3(3, -4, 1)}) {
         const IncidentLight in = (*light)->incident(point, x);

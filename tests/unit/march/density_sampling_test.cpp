@@ -194,12 +194,37 @@ TEST(DensitySampling, NoWeightExceedsTheInverseOfItsChannelsShare) {
 }
 
 TEST(FindSegment, FindsTheSegmentOfEveryEdgeAndMiddle) {
-  RecordedRay<1> r({profile_box([](float) { return 1.0f; }, kLow, kHigh, Color(1), Color(1))}, ray_along_z(-1), 0.3f);
-  for (int i = 0; i < r->n; ++i) {
-    EXPECT_EQ(find_segment(*r, r->t[i]), i);
-    EXPECT_EQ(find_segment(*r, 0.5f * (r->t[i] + r->t[i + 1])), i);
+  const auto expect_found = [](const MarchRecord<1>& record) {
+    for (int i = 0; i < record.n; ++i)
+      for (const float t :
+           {record.t[i], 0.5f * (record.t[i] + record.t[i + 1]), std::nextafter(record.t[i + 1], 0.0f)}) {
+        if (t < record.t[0]) continue;  // far away some edges are the same float
+        const auto above = std::upper_bound(record.t, record.t + record.n, t);
+        EXPECT_EQ(find_segment(record, t), above - record.t - 1);
+      }
+    EXPECT_EQ(find_segment(record, record.t[record.n]), record.n - 1);
+  };
+  const auto flat = [](float low, float high) {
+    return profile_box([](float) { return 1.0f; }, {-1, -1, double(low)}, {1, 1, double(high)}, Color(1), Color(1));
+  };
+  for (const float step : {2.0f, 0.3f, 0.1f, 0.0037f, 1e-4f}) {
+    const RecordedRay<1> one({flat(0, 1)}, ray_along_z(-1), step), from_afar({flat(0, 1)}, ray_along_z(-3000), step),
+        with_a_gap({flat(0, 1), flat(1.7f, 2)}, ray_along_z(-1), step);
+    EXPECT_GT(one->inverse_step, 0);
+    EXPECT_EQ(with_a_gap->inverse_step, 0);
+    for (const auto* r : {&one, &from_afar, &with_a_gap}) expect_found(**r);
   }
-  EXPECT_EQ(find_segment(*r, r->t[r->n]), r->n - 1);
+}
+
+TEST(SegmentOf, IsTheLastThatBeginsAtOrBelowTheValue) {
+  for (int n = 1; n < 100; ++n) {
+    std::vector<float> edges{0};  // some of them equal
+    for (int i = 0; i < n; ++i) edges.push_back(edges.back() + (i % 3 == 1 ? 0 : 1));
+    for (float value = 0; value < edges.back(); value += 0.5f) {
+      const auto above = std::upper_bound(edges.begin(), edges.end(), value);
+      EXPECT_EQ(segment_of(edges.data(), n, value), above - edges.begin() - 1) << n << ' ' << value;
+    }
+  }
 }
 
 TEST(Evaluate, GivesTransmittanceAndCoefficientsAnywhere) {

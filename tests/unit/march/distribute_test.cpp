@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/core/simd.h"
+#include "renderer/march/step_loops.h"
 #include "renderer/sampling/sampler.h"
 #include "tests/support/media.h"
 
@@ -117,6 +119,25 @@ TEST(Distribute, SlabsAlignedWithSegmentsAreExactForEveryOffset) {
     EXPECT_NEAR(emitted_radiance(*r).r / emitted, 1, kFloatError) << "offset " << offset;
     EXPECT_NEAR(r->scattered() / (-std::expm1(-tau) / 3), 1, kFloatError) << "offset " << offset;
   }
+}
+
+TEST(ExpMinus, IsTheExponentialOfAsManyValuesAsThereAreAtEveryLevel) {
+  for (const std::string& level : simd_levels()) {
+    ASSERT_TRUE(force_simd_level(level).ok());
+    for (const int n : {0, 1, 3, 16, 37}) {
+      std::vector<float> values;
+      for (int i = 0; i <= n; ++i) values.push_back(i == 5 ? 100.0f : 0.37f * static_cast<float>(i * i));
+      const std::vector<float> before = values;
+      exp_minus(values.data(), n);
+      for (int i = 0; i < n; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        const double exact = before[at] < 87 ? std::exp(-double(before[at])) : 0;
+        EXPECT_NEAR(values[at], exact, 3e-7 * exact) << level << ' ' << before[at];
+      }
+      EXPECT_EQ(values.back(), before.back()) << level;
+    }
+  }
+  ASSERT_TRUE(force_simd_level("auto").ok());
 }
 
 }  // namespace
