@@ -19,8 +19,6 @@ struct LightPoint {
   Vec3 position;
   Vec3 direction;
   Vec3 normal;  ///< unit, of the lit side
-
-  bool operator==(const LightPoint&) const = default;
 };
 
 /// Light arriving at a point from a LightPoint.

@@ -27,7 +27,8 @@ ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const Ray& ray
   const auto off_ray = static_cast<float>(std::sqrt(off2)), radius = pivot.radius;
   // As for equi-angular sampling, a pivot on the ray is taken as if it were next to it.
   const float reach = std::max(std::abs(record.t[0] - foot), std::abs(record.t[record.n] - foot));
-  const float distance = std::max(static_cast<float>(std::sqrt(off2 + double(radius) * double(radius))), 1e-7f * reach);
+  const float distance = std::max(static_cast<float>(std::sqrt(off2 + double(radius) * double(radius))),
+                                  static_cast<float>(kLeastPivotDistance) * reach);
   foot_ = {foot, distance};
 
   const auto n = static_cast<std::size_t>(record.n);
