@@ -42,13 +42,13 @@ class Addresses {
  public:
   using D = hn::CappedTag<float, kChunk>;
   using DI = hn::RebindToSigned<D>;
+  using DU = hn::RebindToUnsigned<D>;
   using V = hn::Vec<D>;
 
   /// `local_from_scene` maps to index space relative to the low corner of the table.
   HWY_INLINE Addresses(const BrickGrid& grid, const Affine& local_from_scene) : map_(local_from_scene) {
     const VoxelIndex bricks = grid.table_extent();
-    for (int axis = 0; axis < 3; ++axis)
-      last_[axis] = static_cast<float>(bricks[axis] * BrickGrid::kCells) * 0x1.fffffep-1f;  // the float below
+    for (int axis = 0; axis < 3; ++axis) end_[axis] = static_cast<float>(bricks[axis] * BrickGrid::kCells);
     row_y_ = bricks.y, row_z_ = bricks.z;
     // As below: what the bits of 2^23 add up to in the place, to be taken away again; modulo 2^32. 1: see table().
     const auto ny = static_cast<std::uint32_t>(bricks.y), nz = static_cast<std::uint32_t>(bricks.z);
@@ -58,13 +58,25 @@ class Addresses {
   /// @tparam kRowStride  rows of 9 voxels from x to x + 1: 9 or 8
   template <int kRowStride>
   HWY_INLINE void find(const PointBatch& points, int first, int count, Scratch* HWY_RESTRICT s) const {
+    // Most grids lie along the axes of the scene.
+    const Vec3* const row = map_.row;
+    const bool along_axes =
+        row[0].y == 0 && row[0].z == 0 && row[1].x == 0 && row[1].z == 0 && row[2].x == 0 && row[2].y == 0;
+    along_axes ? find<kRowStride, true>(points, first, count, s) : find<kRowStride, false>(points, first, count, s);
+  }
+
+ private:
+  template <int kRowStride, bool kAlongAxes>
+  HWY_INLINE void find(const PointBatch& points, int first, int count, Scratch* HWY_RESTRICT s) const {
     const D d;
     const DI di;
+    const DU du;
     const auto set = [d](float v) HWY_ATTR { return hn::Set(d, v); };
     const V ax = set(map_.row[0].x), ay = set(map_.row[0].y), az = set(map_.row[0].z), ao = set(map_.offset.x);
     const V bx = set(map_.row[1].x), by = set(map_.row[1].y), bz = set(map_.row[1].z), bo = set(map_.offset.y);
     const V cx = set(map_.row[2].x), cy = set(map_.row[2].y), cz = set(map_.row[2].z), co = set(map_.offset.z);
-    const V zero = hn::Zero(d), last_x = set(last_[0]), last_y = set(last_[1]), last_z = set(last_[2]);
+    const auto end_x = hn::BitCast(du, set(end_[0])), end_y = hn::BitCast(du, set(end_[1])),
+               end_z = hn::BitCast(du, set(end_[2]));
     const V two23 = set(8388608.0f);
     const auto row_y = hn::Set(di, row_y_), row_z = hn::Set(di, row_z_), first_slot = hn::Set(di, first_slot_);
     const auto seven = hn::Set(di, 7);
@@ -72,44 +84,43 @@ class Addresses {
     for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
       const V x = hn::LoadU(d, points.x + first + i), y = hn::LoadU(d, points.y + first + i),
               z = hn::LoadU(d, points.z + first + i);
-      const V px = hn::MulAdd(ax, x, hn::MulAdd(ay, y, hn::MulAdd(az, z, ao)));
-      const V py = hn::MulAdd(bx, x, hn::MulAdd(by, y, hn::MulAdd(bz, z, bo)));
-      const V pz = hn::MulAdd(cx, x, hn::MulAdd(cy, y, hn::MulAdd(cz, z, co)));
-      // A point is inside when clamping leaves it alone; a NaN equals nothing. Points outside read element 0 of the
-      // table, which is brick 0, at the low corner: whatever the clamped value is, it is not used.
-      const V qx = hn::Min(hn::Max(px, zero), last_x), qy = hn::Min(hn::Max(py, zero), last_y),
-              qz = hn::Min(hn::Max(pz, zero), last_z);
-      const auto inside = hn::RebindMask(di, hn::And(hn::And(hn::Eq(px, qx), hn::Eq(py, qy)), hn::Eq(pz, qz)));
-      const V wx = hn::Floor(qx), wy = hn::Floor(qy), wz = hn::Floor(qz);
-      hn::Store(hn::Sub(qx, wx), d, s->fx + i);
-      hn::Store(hn::Sub(qy, wy), d, s->fy + i);
-      hn::Store(hn::Sub(qz, wz), d, s->fz + i);
+      const V px = kAlongAxes ? hn::MulAdd(ax, x, ao) : hn::MulAdd(ax, x, hn::MulAdd(ay, y, hn::MulAdd(az, z, ao)));
+      const V py = kAlongAxes ? hn::MulAdd(by, y, bo) : hn::MulAdd(bx, x, hn::MulAdd(by, y, hn::MulAdd(bz, z, bo)));
+      const V pz = kAlongAxes ? hn::MulAdd(cz, z, co) : hn::MulAdd(cx, x, hn::MulAdd(cy, y, hn::MulAdd(cz, z, co)));
+      // Inside is 0 <= p < end: as an unsigned number a float is the greater the farther it is from 0, and greater than
+      // all that are not negative if it is. Infinities and NaN are outside. Points outside read element 0 of the table,
+      // which is brick 0, somewhere: it is 0 everywhere.
+      const auto inside = hn::And(hn::And(hn::Lt(hn::BitCast(du, px), end_x), hn::Lt(hn::BitCast(du, py), end_y)),
+                                  hn::Lt(hn::BitCast(du, pz), end_z));
+      const auto is_inside = hn::RebindMask(d, inside);
+      const V wx = hn::Floor(px), wy = hn::Floor(py), wz = hn::Floor(pz);
+      hn::Store(hn::IfThenElseZero(is_inside, hn::Sub(px, wx)), d, s->fx + i);
+      hn::Store(hn::IfThenElseZero(is_inside, hn::Sub(py, wy)), d, s->fy + i);
+      hn::Store(hn::IfThenElseZero(is_inside, hn::Sub(pz, wz)), d, s->fz + i);
       // 2^23 + w has w in its low bits: cheaper than a conversion that must also handle what does not fit.
       const auto ix = hn::BitCast(di, hn::Add(wx, two23)), iy = hn::BitCast(di, hn::Add(wy, two23)),
                  iz = hn::BitCast(di, hn::Add(wz, two23));
       const auto row = hn::Add(hn::Mul(hn::ShiftRight<3>(ix), row_y), hn::ShiftRight<3>(iy));
       const auto slot = hn::Add(hn::Mul(row, row_z), hn::Add(hn::ShiftRight<3>(iz), first_slot));
-      hn::Store(hn::IfThenElseZero(inside, slot), di, s->slot + i);
+      hn::Store(hn::IfThenElseZero(hn::RebindMask(di, inside), slot), di, s->slot + i);
       const auto lx = hn::And(ix, seven), ly = hn::And(iy, seven), lz = hn::And(iz, seven);
       const auto xy = hn::Add(kRowStride == 9 ? times_nine(lx) : hn::ShiftLeft<3>(lx), ly);
-      hn::Store(hn::IfThenElseZero(inside, hn::Add(times_nine(xy), lz)), di, s->corner + i);
+      hn::Store(hn::Add(times_nine(xy), lz), di, s->corner + i);
     }
   }
 
- private:
   static constexpr std::uint32_t kTwo23Bits = 0x4B000000;  // 2^23 as float
   static_assert(BrickGrid::kMaxExtent <= 1 << 23 && BrickValues::kCells == 8 && BrickValues::kCorners == 9);
 
   static HWY_INLINE hn::Vec<DI> times_nine(hn::Vec<DI> v) { return hn::Add(hn::ShiftLeft<3>(v), v); }
 
   const Affine& map_;
-  float last_[3];  // the greatest coordinate inside the table
+  float end_[3];  // of the table, from its low corner
   std::int32_t row_y_, row_z_, first_slot_;
 };
 
 using D = Addresses::D;
-using DI = Addresses::DI;
-using DU = hn::RebindToUnsigned<D>;
+using DU = Addresses::DU;
 using V = hn::Vec<D>;
 
 HWY_INLINE V lerp(V f, V a, V b) {
@@ -179,13 +190,32 @@ struct QuadLayout {
   static constexpr std::size_t kBrickBytes = bytes_per_brick(BrickLayout::Quad);
   static float unit(const BrickValues& values) { return values.unit() * kShiftedHalf; }
 
+  // Of four points in a row each goes to another vector, so that these are turned inside their blocks of 16 bytes only.
   static HWY_INLINE void fetch(const std::byte* corner, int k, std::uint32_t* voxels) {
-    std::memcpy(voxels + 4 * k, corner, 16);
+    constexpr int kLanes = static_cast<int>(hn::MaxLanes(D())), kBlocks = HWY_MAX(kLanes / 4, 1);
+    const int vector = k / 4 / kBlocks * 4 + k % 4, block = k / 4 % kBlocks;
+    std::memcpy(voxels + 4 * (vector * kBlocks + block), corner, 16);
   }
   static HWY_INLINE Edges read(const std::uint32_t* voxels, int i, V along_z) {
     const DU du;
     hn::Vec<DU> low0, low1, high0, high1;  // z and z + 1, each x and x + 1, each two halves y and y + 1
+#if HWY_TARGET == HWY_SCALAR
     hn::LoadInterleaved4(du, voxels + 4 * i, low0, low1, high0, high1);
+#else
+    const std::size_t lanes = hn::Lanes(du);
+    const std::uint32_t* const first = voxels + 4 * i;
+    const auto v0 = hn::Load(du, first), v1 = hn::Load(du, first + lanes), v2 = hn::Load(du, first + 2 * lanes),
+               v3 = hn::Load(du, first + 3 * lanes);
+    const hn::Repartition<std::uint64_t, DU> pairs;
+    const auto low01 = hn::BitCast(pairs, hn::InterleaveLower(du, v0, v1)),
+               low23 = hn::BitCast(pairs, hn::InterleaveLower(du, v2, v3)),
+               high01 = hn::BitCast(pairs, hn::InterleaveUpper(du, v0, v1)),
+               high23 = hn::BitCast(pairs, hn::InterleaveUpper(du, v2, v3));
+    low0 = hn::BitCast(du, hn::InterleaveLower(pairs, low01, low23));
+    low1 = hn::BitCast(du, hn::InterleaveUpper(pairs, low01, low23));
+    high0 = hn::BitCast(du, hn::InterleaveLower(pairs, high01, high23));
+    high1 = hn::BitCast(du, hn::InterleaveUpper(pairs, high01, high23));
+#endif
     const auto mask = hn::Set(du, 0xFFFF);
     const auto y0 = [&](hn::Vec<DU> v) HWY_ATTR { return shifted_half(hn::And(v, mask)); };
     const auto y1 = [&](hn::Vec<DU> v) HWY_ATTR { return shifted_half(hn::ShiftRight<16>(v)); };
@@ -201,6 +231,7 @@ HWY_INLINE bool fetch(const std::int32_t* table, const std::byte* values, const 
   int empty = 0;  // a dense chunk leaves this loop at once; one of empty bricks is done after it
   while (empty < kChunk && table[slot[empty]] == 0) ++empty;
   if (empty == kChunk) return false;
+  HWY_UNROLL(16)
   for (int k = 0; k < kChunk; ++k)
     Layout::fetch(values + static_cast<std::size_t>(table[slot[k]]) * Layout::kBrickBytes +
                       static_cast<std::size_t>(corner[k]) * Layout::kBytes,
