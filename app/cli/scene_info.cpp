@@ -54,8 +54,7 @@ std::string bounds_text(const Bounds3& b) {
 }
 
 std::string steps_text(const Scene& scene) {
-  if (!scene.needs.lookups && !scene.needs.split_homogeneous)
-    return "none: rays cross homogeneous media in one segment";
+  if (!scene.needs.lookups && !scene.needs.product) return "none: rays cross homogeneous media in one segment";
   return short_number(scene.step_size) + (scene.render.step_size ? "" : " (auto)") + ", towards lights " +
          short_number(scene.shadow_step_size) + (scene.render.shadow_step_size ? "" : " (auto)") + " world units";
 }
@@ -66,11 +65,9 @@ Json bounds_json(const Bounds3& b) {
 }
 
 Json needs_json(const SceneNeeds& n) {
-  return {{"text", n.to_string()},        {"channels", n.channels},
-          {"emission", n.emission},       {"overlap", n.overlap},
-          {"lookups", n.lookups},         {"baked", n.baked},
-          {"equiangular", n.equiangular}, {"split_homogeneous", n.split_homogeneous},
-          {"surfaces", n.surfaces},       {"time", n.time}};
+  return {{"text", n.to_string()},  {"channels", n.channels}, {"emission", n.emission},       {"overlap", n.overlap},
+          {"lookups", n.lookups},   {"baked", n.baked},       {"equiangular", n.equiangular}, {"product", n.product},
+          {"surfaces", n.surfaces}, {"time", n.time}};
 }
 
 }  // namespace

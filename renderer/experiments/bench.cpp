@@ -99,7 +99,7 @@ class Bench {
     if (!wanted("density look-up")) return;
     const double ours = least_nanoseconds([&] {
                           for (const Row& row : rows) {
-                            write_steps({row.first, row.step}, {0, 1, 0, kSteps}, t, x, y, z);
+                            write_steps({row.first, row.step}, {0, kSteps, 1, 0, kSteps}, t, x, y, z);
                             lookup_trilinear(grid, Affine{}, {x, y, z, kSteps, 0}, 1, density);
                           }
                         }) /
@@ -163,7 +163,7 @@ class Bench {
     constexpr int kOctaves = 6;
     const FbmNoise noise({}, {.octaves = kOctaves, .seed = 1});
     alignas(64) float t[kSteps], x[kSteps], y[kSteps], z[kSteps], out[kSteps];
-    write_steps({{0.1f, 0.2f, 0.3f}, {0.13f, 0.21f, 0.05f}}, {0, 1, 0, kSteps}, t, x, y, z);
+    write_steps({{0.1f, 0.2f, 0.3f}, {0.13f, 0.21f, 0.05f}}, {0, kSteps, 1, 0, kSteps}, t, x, y, z);
     constexpr int kRepeats = 100;
     const double ours = least_nanoseconds([&] {
                           for (int r = 0; r < kRepeats; ++r) noise.evaluate({x, y, z, kSteps, 0}, out);

@@ -17,7 +17,7 @@ constexpr int kShownPasses = 16;
 
 double mean_of_channels(const auto& channels, int i) {
   double sum = 0;
-  for (const float* channel : channels) sum += double(channel[i]);
+  for (const auto& channel : channels) sum += double(channel[i]);
   return sum / static_cast<double>(channels.size());
 }
 
@@ -25,8 +25,7 @@ template <int C> RayProfile profile_of(const Scene& scene, Ray ray, SampleContex
   RayProfile out;
   static_cast<void>(close(ray, scene));
   const ArenaScope scope(context.arena);
-  MarchRecord<C> rec =
-      record_ray<C>(ray, {scene.step_size, 0.5f, scene.render.time, scene.needs.split_homogeneous}, context);
+  MarchRecord<C> rec = record_ray<C>(ray, {scene.step_size, 0.5f, scene.render.time, scene.needs.product}, context);
   if (rec.empty()) return out;
   distribute(rec, Color(1), context.arena);
   const auto n = static_cast<std::size_t>(rec.n);
@@ -35,8 +34,9 @@ template <int C> RayProfile profile_of(const Scene& scene, Ray ray, SampleContex
   for (int i = 0; i < rec.n; ++i) out.sigma_t.push_back(mean_of_channels(rec.sigma_t, i));
   if (!(rec.scattered() > 0)) return out;
   const auto per_unit = [&](double probability, std::size_t i) { return probability / (out.t[i + 1] - out.t[i]); };
-  for (std::size_t i = 0; i < n; ++i)
-    out.density_pdf.push_back(per_unit(double(rec.p[i]) / double(rec.scattered()), i));
+  for (int i = 0; i < rec.n; ++i)
+    out.density_pdf.push_back(per_unit(double(rec.probability(i)), static_cast<std::size_t>(i)));
+  const float* const p = scattered_by_segment(rec, context.arena);
   for (std::size_t l = 0; l < scene.lights.size() && out.lights.size() < kMostLights; ++l) {
     const Light& light = *scene.lights[l];
     const LightPoint point = light.sample_point({0.5f, 0.5f});
@@ -49,7 +49,7 @@ template <int C> RayProfile profile_of(const Scene& scene, Ray ray, SampleContex
     }
     const auto pivot = light.pivot();
     if (!pivot) continue;
-    const ProductSampling<C> product = product_sampling(rec, ray, scene, light, *pivot, context.arena);
+    const ProductSampling<C> product = product_sampling(rec, p, ray, scene, light, *pivot, context.arena);
     if (!(product.total() > 0)) continue;
     for (int i = 0; i < rec.n; ++i)
       of_light.product_pdf.push_back(per_unit(double(product.probability(i)), static_cast<std::size_t>(i)));

@@ -24,7 +24,7 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
 
     // record
     const MarchSettings settings{scene.step_size, sampler.u1(Decision::MarchOffset, bounce), scene.render.time,
-                                 scene.needs.split_homogeneous};
+                                 scene.needs.product};
     MarchRecord<C> rec = record_ray<C>(ray, settings, context);
     // distribute
     if (!rec.empty()) distribute(rec, beta, context.arena);

@@ -2,6 +2,7 @@
 
 #include "renderer/integrators/light_batch.h"
 #include "renderer/integrators/path.h"
+#include "renderer/march/distribute.h"
 
 namespace brume {
 namespace {
@@ -12,9 +13,10 @@ template <int C> struct LightSampling {
   int bounce;
   SampleContext& context;
   LightBatch<C>& batch;
+  const float* p;  // P_i of the segments, where product sampling needs them
 
   ProductSampling<C> product_with(const Light& light, const LightPivot& pivot) const {
-    return product_sampling(record, ray, context.scene, light, pivot, context.arena);
+    return product_sampling(record, p, ray, context.scene, light, pivot, context.arena);
   }
 
   /// What a light adds to the ray unless there are shadows, roughly.
@@ -110,11 +112,12 @@ template <int C> struct LightSampling {
 }  // namespace
 
 template <int C>
-ProductSampling<C> product_sampling(const MarchRecord<C>& record, const Ray& ray, const Scene& scene,
+ProductSampling<C> product_sampling(const MarchRecord<C>& record, const float* p, const Ray& ray, const Scene& scene,
                                     const Light& light, const LightPivot& pivot, Arena& arena) {
   const LightPoint middle{LightPoint::Kind::Finite, pivot.position, {}, pivot.normal};
   const bool has_one_lit_part = pivot.normal != Vec3() || pivot.radius == 0;
   return {record,
+          p,
           ray,
           pivot,
           has_one_lit_part ? lit_part(record, ray, light, middle) : record.span(),
@@ -126,7 +129,8 @@ template <int C>
 void direct_light(const MarchRecord<C>& record, const Ray& ray, Color beta, int bounce, int samples,
                   SampleContext& context, MarchedShadows<C>& shadows) {
   LightBatch<C> batch(record, ray, beta, bounce, context, shadows);
-  const LightSampling<C> sampling{record, ray, bounce, context, batch};
+  const float* const p = context.scene.needs.product ? scattered_by_segment(record, context.arena) : nullptr;
+  const LightSampling<C> sampling{record, ray, bounce, context, batch, p};
   if (sampling.picks_by_product()) {
     sampling.from_picked_light(samples);
   } else {
@@ -137,10 +141,10 @@ void direct_light(const MarchRecord<C>& record, const Ray& ray, Color beta, int 
   batch.finish();
 }
 
-template ProductSampling<1> product_sampling(const MarchRecord<1>&, const Ray&, const Scene&, const Light&,
-                                             const LightPivot&, Arena&);
-template ProductSampling<3> product_sampling(const MarchRecord<3>&, const Ray&, const Scene&, const Light&,
-                                             const LightPivot&, Arena&);
+template ProductSampling<1> product_sampling(const MarchRecord<1>&, const float*, const Ray&, const Scene&,
+                                             const Light&, const LightPivot&, Arena&);
+template ProductSampling<3> product_sampling(const MarchRecord<3>&, const float*, const Ray&, const Scene&,
+                                             const Light&, const LightPivot&, Arena&);
 template void direct_light<1>(const MarchRecord<1>&, const Ray&, Color, int, int, SampleContext&, MarchedShadows<1>&);
 template void direct_light<3>(const MarchRecord<3>&, const Ray&, Color, int, int, SampleContext&, MarchedShadows<3>&);
 

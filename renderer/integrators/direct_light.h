@@ -17,9 +17,9 @@ void direct_light(const MarchRecord<C>& record, const Ray& ray, Color beta, int 
                   SampleContext& context, MarchedShadows<C>& shadows);
 
 /// Product sampling of the ray for one light, which lives in the arena scope that is open.
-/// @param record  distributed, with scattered() > 0.  @param pivot  the light's
+/// @param record  distributed, with scattered() > 0.  @param p  its scattered_by_segment().  @param pivot  the light's
 template <int C>
-ProductSampling<C> product_sampling(const MarchRecord<C>& record, const Ray& ray, const Scene& scene,
+ProductSampling<C> product_sampling(const MarchRecord<C>& record, const float* p, const Ray& ray, const Scene& scene,
                                     const Light& light, const LightPivot& pivot, Arena& arena);
 
 }  // namespace brume

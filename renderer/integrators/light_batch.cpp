@@ -91,7 +91,7 @@ template <int C> bool LightBatch<C>::look_at_light(int k, EquiangularLanes& lane
     lanes.aim(k, s.point.position, lit_part(record_, ray_, s.light, s.point));
     return true;
   }
-  if (!record_.homogeneous[at.segment] && lanes.is_near(k, segment_span(at.segment))) {
+  if (!record_.is_homogeneous(at.segment) && lanes.is_near(k, record_.segment(at.segment))) {
     // The record knows another place of the segment only.
     const Collision<C> there =
         collision_at<C>(scene.media, ray_, at.t, scene.render.time, context_.arena, context_.statistics.march);
@@ -107,7 +107,7 @@ template <int C> void LightBatch<C>::weigh(const EquiangularLanes& lanes) {
   alignas(64) float begin[kCapacity], end[kCapacity], equiangular[kCapacity];
   for (int k = 0; k < lanes.size(); ++k) {
     const RayPoint<C>& at = points_[k];
-    const Interval part = follows(lanes, k, at.segment) ? Interval{at.t, at.t} : segment_span(at.segment);
+    const Interval part = follows(lanes, k, at.segment) ? Interval{at.t, at.t} : record_.segment(at.segment);
     begin[k] = part.begin, end[k] = part.end;
   }
   lanes.pdf(begin, end, equiangular);

@@ -58,9 +58,8 @@ template <int C> class LightBatch {
   void weigh(const EquiangularLanes& lanes);
   void hand_over(int k);
 
-  Interval segment_span(int i) const { return {record_.t[i], record_.t[i + 1]}; }
   bool follows(const EquiangularLanes& lanes, int lane, int segment) const {
-    return record_.homogeneous[segment] || lanes.is_near(lane, segment_span(segment));
+    return record_.is_homogeneous(segment) || lanes.is_near(lane, record_.segment(segment));
   }
 
   const MarchRecord<C>& record_;

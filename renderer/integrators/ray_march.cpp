@@ -53,7 +53,7 @@ template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context
     const bool scatters = !rec.empty() && rec.scattered() > 0;
     for_lights(bounce, 0, all, context, [&](const Light& light, float weight, const LightNumbers& numbers) {
       for (int i = 0; scatters && i < rec.n; ++i) {
-        if (rec.p[i] == 0) continue;
+        if (rec.is_clear(i)) continue;
         const ArenaScope step_scope(context.arena);
         const float width = rec.t[i + 1] - rec.t[i];
         const RayPoint<C> at = looked_up_point(rec, i);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "renderer/march/distribute.h"
+
 namespace brume {
 namespace {
 
@@ -24,16 +26,17 @@ DrawnSegment draw_segment(const float* cdf, int n, float u) {
 
 template <int C> SampledPoint<C> DensitySampling<C>::sample(float u) const {
   const DrawnSegment drawn = draw_segment(record_.cdf, record_.n, u);
-  SampledPoint<C> sample = sample_in(drawn.segment, drawn.rest);
-  sample.pdf_t *= record_.p[drawn.segment] / record_.scattered();
-  return sample;
+  const RayPoint<C> at = place_in(drawn.segment, drawn.rest);
+  return {at, pdf(at)};
 }
 
-template <int C> SampledPoint<C> DensitySampling<C>::sample_in(int segment, float v) const {
-  const MarchRecord<C>& rec = record_;
-  if (!is_drawn(segment)) return {looked_up_point(rec, segment), 1 / (rec.t[segment + 1] - rec.t[segment])};
-  const RayPoint<C> at = exponential(segment, v);
-  return {at, scattered_at(at) / rec.p[segment]};
+template <int C> SampledPoint<C> DensitySampling<C>::sample_in(int segment, float v, float p) const {
+  const RayPoint<C> at = place_in(segment, v);
+  return {at, is_drawn(segment) ? scattered_at(at) / p : 1 / record_.segment(segment).length()};
+}
+
+template <int C> RayPoint<C> DensitySampling<C>::place_in(int segment, float v) const {
+  return is_drawn(segment) ? exponential(segment, v) : looked_up_point(record_, segment);
 }
 
 template <int C> RayPoint<C> DensitySampling<C>::exponential(int segment, float v) const {
@@ -44,7 +47,7 @@ template <int C> RayPoint<C> DensitySampling<C>::exponential(int segment, float 
   std::size_t channel = 0;
   if constexpr (C > 1) {
     float share[C], sum = 0;
-    for (std::size_t c = 0; c < C; ++c) sum += share[c] = rec.weight.v[c] * rec.sigma_s[c][i] * rec.length[c][i];
+    for (std::size_t c = 0; c < C; ++c) sum += share[c] = scattered_in(rec, segment, static_cast<int>(c));
     float rest = v * sum;
     while (channel + 1 < C && (rest >= share[channel] || share[channel] == 0)) rest -= share[channel++];
     while (channel > 0 && share[channel] == 0) --channel;
@@ -75,9 +78,8 @@ template <int C> float DensitySampling<C>::scattered_at(const RayPoint<C>& point
 }
 
 template <int C> float DensitySampling<C>::pdf(const RayPoint<C>& point) const {
-  const int i = point.segment;
-  const float here = is_drawn(i) ? scattered_at(point) : record_.p[i] / (record_.t[i + 1] - record_.t[i]);
-  return here / record_.scattered();
+  if (is_drawn(point.segment)) return scattered_at(point) / record_.scattered();
+  return record_.probability(point.segment) / record_.segment(point.segment).length();
 }
 
 template class DensitySampling<1>;

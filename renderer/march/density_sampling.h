@@ -41,13 +41,15 @@ template <int C> class DensitySampling {
   SampledPoint<C> sample(float u) const;
 
   /// The same inside a segment that scatters, with the density given that segment.  @param v  in [0, 1]
-  SampledPoint<C> sample_in(int segment, float v) const;
+  /// @param p  P_i of the segment
+  SampledPoint<C> sample_in(int segment, float v, float p) const;
 
   /// Of any point of the ray, per world unit.
   float pdf(const RayPoint<C>& point) const;
 
  private:
-  bool is_drawn(int segment) const { return place_ == PlaceInSegment::Drawn || record_.homogeneous[segment]; }
+  bool is_drawn(int segment) const { return place_ == PlaceInSegment::Drawn || record_.is_homogeneous(segment); }
+  RayPoint<C> place_in(int segment, float v) const;
   RayPoint<C> exponential(int segment, float v) const;
   float scattered_at(const RayPoint<C>& point) const;
 

@@ -1,43 +1,58 @@
 #include "renderer/march/distribute.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "renderer/march/step_loops.h"
 
 namespace brume {
 
 template <int C> void distribute(MarchRecord<C>& rec, Color throughput, Arena& arena) {
-  const auto n = static_cast<std::size_t>(rec.n);
-  const auto on_edges = [&] { return arena.alloc_span<float>(n + kWidestVector).data(); };
   rec.weight = channel_weights<C>(throughput);
-  float* cdf = on_edges();
-  float* p = arena.alloc_span<float>(n).data();
-  Attenuation out[C];
-  for (std::size_t c = 0; c < C; ++c) {
-    out[c] = {on_edges(), on_edges(), arena.alloc_span<float>(n).data()};
-    rec.tau[c] = out[c].tau, rec.transmittance[c] = out[c].transmittance, rec.length[c] = out[c].length;
-  }
-  if constexpr (C == 1) {
-    attenuate(rec.t, rec.sigma_t[0], rec.sigma_s[0], rec.n, out[0], p, cdf);
-  } else {
-    for (std::size_t c = 0; c < C; ++c) attenuate(rec.t, rec.sigma_t[c], rec.n, out[c]);
-    for (std::size_t i = 0; i < n; ++i) {
-      p[i] = 0;
-      for (std::size_t c = 0; c < C; ++c) p[i] += rec.weight.v[c] * rec.sigma_s[c][i] * rec.length[c][i];
-    }
-    running_sum(p, rec.n, cdf);
-  }
-  rec.p = p;
+  float* const cdf = alloc_edges(rec.n, arena);
   rec.cdf = cdf;
+  for (std::size_t c = 0; c < C; ++c) {
+    float* const tau = alloc_edges(rec.n, arena);
+    float* const transmittance = alloc_edges(rec.n, arena);
+    rec.tau[c] = tau, rec.transmittance[c] = transmittance;
+    const float sigma_t = rec.sigma_t[c].scale, sigma_s = rec.sigma_s[c].scale;
+    const float scatters = sigma_t > 0 ? rec.weight.v[c] * sigma_s / sigma_t : 0;
+    if (!rec.has_one_albedo())
+      attenuate(rec.segments(), rec.sigma_t[c], tau, transmittance);
+    else if (c == 0)
+      attenuate(rec.segments(), rec.sigma_t[c], scatters, tau, transmittance, cdf);
+    else
+      attenuate_and_add(rec.segments(), rec.sigma_t[c], scatters, tau, transmittance, cdf);
+  }
+  if (rec.has_one_albedo()) return;
+  rec.p = scattered_by_segment(rec, arena);
+  running_sum(rec.p, rec.n, cdf);
+}
+
+template <int C> const float* scattered_by_segment(const MarchRecord<C>& rec, Arena& arena) {
+  if (rec.p) return rec.p;
+  const auto n = static_cast<std::size_t>(rec.n);
+  float* const p = arena.alloc_span<float>(n).data();
+  std::fill_n(p, n, 0.0f);
+  for (std::size_t c = 0; c < C; ++c)
+    add_transmitted(rec.segments(), rec.sigma_t[c], rec.transmittance[c], rec.sigma_s[c], rec.weight.v[c], p);
+  return p;
+}
+
+template <int C> float scattered_in(const MarchRecord<C>& rec, int segment, int channel) {
+  const auto c = static_cast<std::size_t>(channel);
+  const float x = rec.sigma_t[c][segment] * rec.segment(segment).length();
+  const float mean = x > 0 ? -std::expm1(-x) / x : 1;  // of the transmittance, to the one at the begin
+  return rec.weight[channel] * rec.sigma_s[c][segment] * rec.segment(segment).length() * rec.transmittance[c][segment] *
+         mean;
 }
 
 template <int C> Color emitted_radiance(const MarchRecord<C>& rec) {
   Color sum;
-  if (rec.emission[0] == nullptr) return sum;
+  if (!rec.emission) return sum;
   for (int c = 0; c < 3; ++c) {
-    const float* length = rec.length[static_cast<std::size_t>(C == 1 ? 0 : c)];
-    const float* emission = rec.emission[static_cast<std::size_t>(c)];
-    double total = 0;
-    for (int i = 0; i < rec.n; ++i) total += static_cast<double>(emission[i] * length[i]);
-    sum[c] = static_cast<float>(total);
+    const auto channel = static_cast<std::size_t>(C == 1 ? 0 : c);
+    sum[c] = sum_transmitted(rec.segments(), rec.sigma_t[channel], rec.transmittance[channel], rec.emission[c]);
   }
   return sum;
 }
@@ -50,6 +65,10 @@ template <int C> Spectrum<C> transmittance(const MarchRecord<C>& rec) {
 
 template void distribute<1>(MarchRecord<1>&, Color, Arena&);
 template void distribute<3>(MarchRecord<3>&, Color, Arena&);
+template const float* scattered_by_segment<1>(const MarchRecord<1>&, Arena&);
+template const float* scattered_by_segment<3>(const MarchRecord<3>&, Arena&);
+template float scattered_in<1>(const MarchRecord<1>&, int, int);
+template float scattered_in<3>(const MarchRecord<3>&, int, int);
 template Color emitted_radiance<1>(const MarchRecord<1>&);
 template Color emitted_radiance<3>(const MarchRecord<3>&);
 template Spectrum<1> transmittance<1>(const MarchRecord<1>&);

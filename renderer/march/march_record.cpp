@@ -34,7 +34,7 @@ struct Stretch {
 /// Writes the edges at which the stretch's segments begin. @return where they are looked up, if they are
 PointBatch write_segments(const Stretch& stretch, const Ray& ray, const MarchSettings& settings, float* t,
                           Arena& arena) {
-  const StepRow row{stretch.span.begin, stretch.step, settings.offset, stretch.count};
+  const StepRow row{stretch.span.begin, stretch.span.end, stretch.step, settings.offset, stretch.count};
   if (stretch.homogeneous) {  // constant shaders are not asked at all
     write_edges(row, t);
     return {};
@@ -44,23 +44,31 @@ PointBatch write_segments(const Stretch& stretch, const Ray& ray, const MarchSet
   float* y = arena.alloc_span<float>(n).data();
   float* z = arena.alloc_span<float>(n).data();
   write_steps(ray, row, t, x, y, z);
-  // The last segment is shorter.
-  const Vec3 last = ray.at(t[n - 1] + settings.offset * (stretch.span.end - t[n - 1]));
-  x[n - 1] = last.x, y[n - 1] = last.y, z[n - 1] = last.z;
   return {x, y, z, stretch.count, settings.time};
 }
 
-/// Writes a stretch's part of the record.  @param t  its edges
+/// The arrays of a record that stretches are written to.
+template <int C> struct Amounts {
+  float* t;
+  /// Of the only medium of the ray, which everything is proportional to; null where there are several, whose
+  /// coefficients are added up.
+  float* density;
+  std::array<float*, C> sigma_t, sigma_s;
+  std::array<float*, 3> emission;  ///< null where the only medium's follows its density, or there is none
+  std::span<float*> of_media;      ///< empty where nobody asks for them
+};
+
+/// Writes a stretch's part of the record.
 template <int C>
-void look_up(const Stretch& stretch, std::span<const Medium> media, const Presence& presence,
-             const RecordContents& contents, const Ray& ray, const MarchSettings& settings, const MarchRecord<C>& rec,
-             float* t, Arena& arena, MarchCounts& counts) {
+void look_up(const Stretch& stretch, std::span<const Medium> media, const Presence& presence, const Ray& ray,
+             const MarchSettings& settings, const Amounts<C>& out, Arena& arena, MarchCounts& counts) {
   const ArenaScope scope(arena);
   const float middle = 0.5f * (stretch.span.begin + stretch.span.end);
   const int n = stretch.count, first = stretch.first;
   const auto size = static_cast<std::size_t>(n);
-  const PointBatch points = write_segments(stretch, ray, settings, t + first, arena);
-  float* const density = arena.alloc_span<float>(size).data();
+  const PointBatch points = write_segments(stretch, ray, settings, out.t + first, arena);
+  // Shaders write whole vectors, the rest of which the next stretch overwrites.
+  float* const density = out.density ? out.density + first : arena.alloc_span<float>(size).data();
   bool begun = false;
   for (std::size_t m = 0; m < media.size(); ++m) {
     const Medium& medium = media[m];
@@ -73,13 +81,15 @@ void look_up(const Stretch& stretch, std::span<const Medium> media, const Presen
     }
     const auto put = begun ? add_scaled : set_scaled;
     begun = true;
-    for (int c = 0; c < C; ++c) {
-      const auto channel = static_cast<std::size_t>(c);
-      put(density, medium.sigma_t[c], n, rec.sigma_t[channel] + first);
-      put(density, medium.sigma_s[c], n, rec.sigma_s[channel] + first);
+    if (!out.density) {
+      for (int c = 0; c < C; ++c) {
+        const auto channel = static_cast<std::size_t>(c);
+        put(density, medium.sigma_t[c], n, out.sigma_t[channel] + first);
+        put(density, medium.sigma_s[c], n, out.sigma_s[channel] + first);
+      }
     }
-    if (contents.overlap) set_scaled(density, 1, n, rec.medium_density[m] + first);
-    if (!contents.emission || !medium.emits()) continue;
+    if (!out.of_media.empty()) set_scaled(density, 1, n, out.of_media[m] + first);
+    if (!out.emission[0] || !medium.emits()) continue;
     EmissionBatch glow{density, density, density};
     if (medium.traits.own_emission) {
       glow = alloc_emission(size, arena);
@@ -88,11 +98,51 @@ void look_up(const Stretch& stretch, std::span<const Medium> media, const Presen
     }
     for (int c = 0; c < 3; ++c) {
       const auto channel = static_cast<std::size_t>(c);
-      add_scaled(glow[channel], medium.emission[c], n, rec.emission[channel] + first);
+      add_scaled(glow[channel], medium.emission[c], n, out.emission[channel] + first);
     }
   }
-  for (std::size_t c = 0; c < C && !begun; ++c)
-    std::fill_n(rec.sigma_t[c] + first, n, 0.0f), std::fill_n(rec.sigma_s[c] + first, n, 0.0f);
+  if (begun) return;
+  if (out.density) std::fill_n(out.density + first, n, 0.0f);
+  for (std::size_t c = 0; c < C && !out.density; ++c)
+    std::fill_n(out.sigma_t[c] + first, n, 0.0f), std::fill_n(out.sigma_s[c] + first, n, 0.0f);
+}
+
+/// Gives the record its arrays, and its coefficients what they are proportional to.
+/// @param only  the only medium of the ray, or null
+template <int C>
+Amounts<C> alloc_amounts(std::span<const Medium> media, const Medium* only, const RecordContents& contents,
+                         MarchRecord<C>& rec, Arena& arena) {
+  const auto n = static_cast<std::size_t>(rec.n);
+  // Stretches begin anywhere: the last vector of one may be read far behind its end.
+  const auto alloc = [&] { return arena.alloc_span<float>(n + kWidestVector).data(); };
+  Amounts<C> out{};
+  rec.t = out.t = arena.alloc_span<float>(n + 2 * kWidestVector).data();
+  if (only) out.density = alloc();
+  for (std::size_t c = 0; c < C; ++c) {
+    if (only) {
+      rec.sigma_t[c] = {out.density, only->sigma_t[static_cast<int>(c)]};
+      rec.sigma_s[c] = {out.density, only->sigma_s[static_cast<int>(c)]};
+    } else {
+      rec.sigma_t[c].amount = out.sigma_t[c] = alloc();
+      rec.sigma_s[c].amount = out.sigma_s[c] = alloc();
+    }
+  }
+  if (contents.emission && (!only || only->emits())) {
+    const auto emission = arena.alloc_span<Coefficient>(3);
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (only && !only->traits.own_emission)
+        emission[c] = {out.density, only->emission[static_cast<int>(c)]};
+      else
+        std::fill_n(out.emission[c] = alloc(), n, 0.0f), emission[c] = {out.emission[c], 1};
+    }
+    rec.emission = emission.data();
+  }
+  if (contents.overlap) {
+    out.of_media = arena.alloc_span<float*>(media.size());
+    for (float*& density : out.of_media) std::fill_n(density = alloc(), n, 0.0f);
+    rec.medium_density = out.of_media.data();
+  }
+  return out;
 }
 
 }  // namespace
@@ -105,6 +155,7 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
   if (presence.empty()) return rec;
 
   const auto stretches = arena.alloc_span<Stretch>(presence.edges.size() - 1);
+  bool some_homogeneous = false;
   for (std::size_t s = 0; s < stretches.size(); ++s) {
     Stretch& stretch = stretches[s];
     stretch = {{presence.edges[s], presence.edges[s + 1]}, rec.n, 1, settings.step, true};
@@ -113,32 +164,22 @@ MarchRecord<C> record(std::span<const Medium> media, const RecordContents& conte
       if (!media[m].traits.constant && presence.contains(m, middle)) stretch.homogeneous = false;
     if (!stretch.homogeneous || settings.split_homogeneous)
       stretch.count = segment_count(stretch.span.length(), stretch.step, counts);
+    some_homogeneous |= stretch.homogeneous;
     rec.longest = std::max(rec.longest, stretch.count == 1 ? stretch.span.length() : stretch.step);
     rec.n += stretch.count;
   }
   if (stretches.size() == 1) rec.inverse_step = 1 / rec.longest;
   counts.segments += static_cast<std::uint64_t>(rec.n);
 
-  const auto n = static_cast<std::size_t>(rec.n);
-  // Stretches begin anywhere: the last vector of one may be read far behind its end.
-  const auto alloc = [&] { return arena.alloc_span<float>(n + kWidestVector).data(); };
-  for (float*& channel : rec.sigma_t) channel = alloc();
-  for (float*& channel : rec.sigma_s) channel = alloc();
-  if (contents.emission)
-    for (float*& channel : rec.emission) std::fill_n(channel = alloc(), n, 0.0f);
-  if (contents.overlap) {
-    rec.medium_density = arena.alloc_span<float*>(media.size()).data();
-    for (std::size_t m = 0; m < media.size(); ++m) std::fill_n(rec.medium_density[m] = alloc(), n, 0.0f);
-  }
-  rec.homogeneous = arena.alloc_span<bool>(n).data();
+  const Medium* const only = presence.only < media.size() ? &media[presence.only] : nullptr;
+  const Amounts<C> out = alloc_amounts(media, only, contents, rec, arena);
+  if (some_homogeneous) rec.homogeneous = arena.alloc_span<bool>(static_cast<std::size_t>(rec.n)).data();
   rec.offset = settings.offset;
-  float* t = arena.alloc_span<float>(n + kWidestVector).data();
-  rec.t = t;
   for (const Stretch& stretch : stretches) {
-    std::fill_n(rec.homogeneous + stretch.first, stretch.count, stretch.homogeneous);
-    look_up(stretch, media, presence, contents, ray, settings, rec, t, arena, counts);
+    if (some_homogeneous) std::fill_n(rec.homogeneous + stretch.first, stretch.count, stretch.homogeneous);
+    look_up(stretch, media, presence, ray, settings, out, arena, counts);
   }
-  t[n] = stretches.back().span.end;
+  out.t[rec.n] = stretches.back().span.end;
   return rec;
 }
 

@@ -1,11 +1,13 @@
 // First step of the decoupled march: the medium along a ray, written down once.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
 #include "renderer/core/arena.h"
 #include "renderer/core/spectrum.h"
+#include "renderer/march/attenuation.h"
 #include "renderer/media/medium.h"
 
 namespace brume {
@@ -35,29 +37,40 @@ inline constexpr int kMaxSegments = 1 << 16;
 ///
 /// The first block is written by record(), the second by distribute().
 template <int C> struct MarchRecord {
-  int n = 0;                           ///< segments; 0 when the ray meets no medium
-  const float* t = nullptr;            ///< [n + 1] edges, ascending, world units; stretches of empty space count
-  std::array<float*, C> sigma_t = {};  ///< [n] per world unit
-  std::array<float*, C> sigma_s = {};
-  std::array<float*, 3> emission = {};  ///< [n] W/(sr m^3); null where no medium emits
-  float** medium_density = nullptr;     ///< [media][n]; null unless several media may share a point
-  bool* homogeneous = nullptr;          ///< [n] nothing varies inside the segment
-  float offset = 0;                     ///< in [0,1): where inside every other segment the medium was looked up
+  int n = 0;                              ///< segments; 0 when the ray meets no medium
+  const float* t = nullptr;               ///< [n + 1] edges, ascending, world units; stretches of empty space count
+  std::array<Coefficient, C> sigma_t;     ///< per world unit; of the only medium of a ray all share its density
+  std::array<Coefficient, C> sigma_s;     ///< the same
+  const Coefficient* emission = nullptr;  ///< [3] W/(sr m^3); null where no medium emits
+  const float* const* medium_density = nullptr;  ///< [media][n]; null unless several media may share a point
+  bool* homogeneous = nullptr;  ///< [n] nothing varies inside the segment; null where all segments vary
+  float offset = 0;             ///< in [0,1): where inside every other segment the medium was looked up
 
   float longest = 0;       ///< bound of the segments' lengths
   float inverse_step = 0;  ///< of segments that are as long as each other, but for the last; 0: they are not
 
-  std::array<float*, C> tau = {};            ///< [n + 1] optical depth from t[0] to each edge
-  std::array<float*, C> transmittance = {};  ///< [n + 1] exp(-tau)
-  std::array<float*, C> length = {};         ///< [n] integral of the transmittance over the segment
-  const float* p = nullptr;                  ///< [n] P_i: what segment i scatters, not normalised
-  const float* cdf = nullptr;                ///< [n + 1] running sum of P_i
-  Spectrum<C> weight = {};                   ///< of the channels in P_i
+  std::array<const float*, C> tau = {};            ///< [n + 1] optical depth from t[0] to each edge
+  std::array<const float*, C> transmittance = {};  ///< [n + 1] exp(-tau)
+  const float* p = nullptr;                        ///< [n] P_i; null where the albedo is one, and the CDF needs none
+  const float* cdf = nullptr;                      ///< [n + 1] running sum of the P_i, not normalised
+  Spectrum<C> weight = {};                         ///< of the channels in P_i
 
   bool empty() const { return n == 0; }
   Interval span() const { return {t[0], t[n]}; }
+  Segments segments() const { return {t, n, inverse_step > 0 ? longest : 0}; }
+  Interval segment(int i) const { return {t[i], t[i + 1]}; }
+  bool is_homogeneous(int i) const { return homogeneous && homogeneous[i]; }
+  /// Nothing scatters in the segment.
+  bool is_clear(int i) const {
+    return std::all_of(sigma_s.begin(), sigma_s.end(), [i](const Coefficient& sigma) { return sigma[i] == 0; });
+  }
+  /// One and the same albedo everywhere, in each channel.
+  bool has_one_albedo() const { return sigma_s[0].amount == sigma_t[0].amount; }
+
   /// Sum of all P_i: the part of the light that scatters once along the ray, averaged over the channels.
   float scattered() const { return cdf[n]; }
+  /// P_i / sum P, as density sampling draws it.
+  float probability(int i) const { return (cdf[i + 1] - cdf[i]) / cdf[n]; }
 };
 
 /// What a record of this scene must hold.

@@ -4,18 +4,16 @@
 
 namespace brume {
 
-bool Presence::contains(std::size_t medium, float t) const {
-  const auto& intervals = of_medium[medium];
-  return std::any_of(intervals.begin(), intervals.end(), [t](Interval i) { return t >= i.begin && t < i.end; });
-}
-
 Presence find_presence(std::span<const Medium> media, const Ray& ray, Arena& arena) {
   Presence presence;
   presence.of_medium = arena.alloc_span<std::span<const Interval>>(media.size());
   std::size_t edge_count = 0;
+  presence.only = media.size();
+  int present = 0;
   for (std::size_t m = 0; m < media.size(); ++m) {
     presence.of_medium[m] = media[m].intervals(ray, arena);
     edge_count += 2 * presence.of_medium[m].size();
+    if (!presence.of_medium[m].empty()) presence.only = present++ == 0 ? m : media.size();
   }
   presence.edges = arena.alloc_span<float>(edge_count);
   std::size_t e = 0;

@@ -13,14 +13,12 @@ constexpr float kDefensive = 0.01f;
 
 }  // namespace
 
-template <int C> bool ProductSampling<C>::is_near(int i) const {
-  return foot_.is_near({record_.t[i], record_.t[i + 1]});
-}
+template <int C> bool ProductSampling<C>::is_near(int i) const { return foot_.is_near(record_.segment(i)); }
 
 template <int C>
-ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const Ray& ray, const LightPivot& pivot, Interval lit,
-                                    const PhaseFunction* phase, Arena& arena)
-    : record_(record), density_(record, PlaceInSegment::LookedUp), lit_(lit) {
+ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const float* p, const Ray& ray,
+                                    const LightPivot& pivot, Interval lit, const PhaseFunction* phase, Arena& arena)
+    : record_(record), p_(p), density_(record, PlaceInSegment::LookedUp), lit_(lit) {
   const Vec3d to_pivot = Vec3d(pivot.position) - Vec3d(ray.origin), direction(ray.direction);
   const auto foot = static_cast<float>(dot(to_pivot, direction));
   const double off2 = length_squared(to_pivot - direction * static_cast<double>(foot));
@@ -32,7 +30,7 @@ ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const Ray& ray
   foot_ = {foot, distance};
 
   const auto n = static_cast<std::size_t>(record.n);
-  float* cdf = arena.alloc_span<float>(n + kWidestVector).data();
+  float* cdf = alloc_edges(record.n, arena);
   cdf_ = cdf;
   const ArenaScope scope(arena);
   float* weight = arena.alloc_span<float>(n).data();
@@ -50,7 +48,7 @@ ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const Ray& ray
     light_cosines(record.t, record.n, terms, cosine);
     phase->values(cosine, record.n + 1, turned);
   }
-  product_weights(record.t, record.p, phase ? turned : nullptr, record.n, terms, weight, angle);
+  product_weights(record.t, p, phase ? turned : nullptr, record.n, terms, weight, angle);
   // Few segments are near the light: what holds for the others is mended there.
   const float reach_of_near = PivotFoot::kNear * record.longest;
   const int first_near = distance < reach_of_near ? find_segment(record, foot - reach_of_near) : record.n;
@@ -76,11 +74,11 @@ template <int C> SampledPoint<C> ProductSampling<C>::sample(float u) const {
   const int i = drawn.segment;
   const float share = probability(i);
   if (is_near(i)) {
-    const Interval part = intersect({record_.t[i], record_.t[i + 1]}, lit_);
+    const Interval part = intersect(record_.segment(i), lit_);
     const DistanceSample s = EquiangularDistribution(foot_, part).sample(drawn.rest);
     return {evaluate(record_, s.t, i), share * s.pdf_t};
   }
-  SampledPoint<C> sample = density_.sample_in(i, drawn.rest);
+  SampledPoint<C> sample = density_.sample_in(i, drawn.rest, p_[i]);
   sample.pdf_t *= share;
   return sample;
 }

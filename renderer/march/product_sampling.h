@@ -19,9 +19,9 @@ namespace brume {
 template <int C> class ProductSampling {
  public:
   /// Everything lives in the arena scope that is open.
-  /// @param record  distributed, with scattered() > 0
+  /// @param record  distributed, with scattered() > 0.  @param p  [n] its scattered_by_segment(), which is kept
   /// @param lit  the part of the ray that the light can reach.  @param phase  null: taken as the same all around
-  ProductSampling(const MarchRecord<C>& record, const Ray& ray, const LightPivot& pivot, Interval lit,
+  ProductSampling(const MarchRecord<C>& record, const float* p, const Ray& ray, const LightPivot& pivot, Interval lit,
                   const PhaseFunction* phase, Arena& arena);
 
   /// Sum of the products: the light that the ray scatters to its origin, unshadowed, for a light of unit intensity.
@@ -37,6 +37,7 @@ template <int C> class ProductSampling {
   bool is_near(int segment) const;
 
   const MarchRecord<C>& record_;
+  const float* p_;
   DensitySampling<C> density_;
   Interval lit_;
   PivotFoot foot_;    // no nearer than the pivot's radius

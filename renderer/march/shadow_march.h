@@ -1,9 +1,9 @@
 // Transmittance towards a light.
 #pragma once
 
+#include "renderer/march/attenuation.h"
 #include "renderer/march/march_record.h"
 #include "renderer/march/shadow_rays.h"
-#include "renderer/march/step_loops.h"
 
 namespace brume {
 

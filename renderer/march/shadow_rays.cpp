@@ -58,10 +58,11 @@ void WritePoints(const ShadowRays& rays, std::span<const ShadowRow> rows, float*
     float* const py = y + row.first;
     float* const pz = z + row.first;
     for (int i = 0; i < row.n; i += lanes()) {
-      const V t = hn::MulAdd(hn::Add(iota, hn::Set(d, static_cast<float>(i))), step, begin);
-      hn::StoreU(hn::MulAdd(wx, t, ox), d, px + i);
-      hn::StoreU(hn::MulAdd(wy, t, oy), d, py + i);
-      hn::StoreU(hn::MulAdd(wz, t, oz), d, pz + i);
+      // Not fused, as in step_loops.cpp.
+      const V t = hn::Add(hn::Mul(hn::Add(iota, hn::Set(d, static_cast<float>(i))), step), begin);
+      hn::StoreU(hn::Add(hn::Mul(wx, t), ox), d, px + i);
+      hn::StoreU(hn::Add(hn::Mul(wy, t), oy), d, py + i);
+      hn::StoreU(hn::Add(hn::Mul(wz, t), oz), d, pz + i);
     }
     const Vec3 last = ray.at(row.last);
     px[row.n - 1] = last.x, py[row.n - 1] = last.y, pz[row.n - 1] = last.z;

@@ -92,7 +92,7 @@ SceneNeeds needs_of(const Scene& scene) {
   needs.overlap = scene.media.size() > 1;
   for (const auto& light : scene.lights)
     needs.equiangular |= light->sample_point({0.5f, 0.5f}).kind == LightPoint::Kind::Finite;
-  needs.split_homogeneous = needs.equiangular && scene.render.distance_sampling == DistanceSampling::Product;
+  needs.product = needs.equiangular && scene.render.distance_sampling == DistanceSampling::Product;
   return needs;
 }
 

@@ -85,10 +85,11 @@ void ProductOfOneLight(benchmark::State& state) {
   const ArenaScope outside(s.arena);
   const MarchRecord<1> rec = s.distributed();
   const HenyeyGreenstein phase(0.4);
+  const float* const p = scattered_by_segment(rec, s.arena);
   const LightPivot pivot{.position = s.ray.at(0.5f * s.ray.span.end) + Vec3(0, 0.5f, 0.3f)};
   for (auto _ : state) {
     const ArenaScope scope(s.arena);
-    const ProductSampling<1> product(rec, s.ray, pivot, rec.span(), &phase, s.arena);
+    const ProductSampling<1> product(rec, p, s.ray, pivot, rec.span(), &phase, s.arena);
     benchmark::DoNotOptimize(product.total());
   }
   count(state, "per_step", rec.n);

@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/core/simd.h"
-#include "renderer/march/step_loops.h"
-#include "renderer/sampling/sampler.h"
 #include "tests/support/media.h"
 
 namespace brume {
@@ -20,7 +17,7 @@ TEST(Distribute, HomogeneousMediumHasItsClosedForm) {
     RecordedRay<1> r({homogeneous_box(kLow, kHigh, Color(0.8f * sigma), Color(sigma), {1, 2, 3})}, ray_along_z(-1), 1);
     const double tau = 2 * double(sigma), length = -std::expm1(-tau) / double(sigma);
     EXPECT_NEAR(r->tau[0][1] / tau, 1, kFloatError);
-    EXPECT_NEAR(r->length[0][0] / length, 1, kFloatError);
+    EXPECT_NEAR(scattered_in(*r, 0, 0) / (0.8 * double(sigma) * length), 1, kFloatError);
     EXPECT_NEAR(transmittance(*r)[0] / std::exp(-tau), 1, kFloatError * (1 + tau));
     EXPECT_NEAR(r->scattered() / (0.8 * -std::expm1(-tau)), 1, kFloatError);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(emitted_radiance(*r)[c] / ((c + 1) * length), 1, kFloatError);
@@ -53,26 +50,35 @@ TEST(Distribute, ManyThinSegmentsAddUpToTheOpticalDepth) {
   EXPECT_NEAR(r->scattered(), -std::expm1(-2.0), 2e-6);
 }
 
-TEST(Distribute, EveryPartMatchesItsDefinitionInDouble) {
-  // A rough medium in three channels, one of which does not interact at all.
+/// A rough medium in three channels, one of which does not interact at all.
+Medium rough_box() {
   const auto rough = [](float z) { return std::max(0.0f, std::sin(9 * z) + 0.4f); };
-  std::vector<Medium> media{profile_box(rough, kLow, kHigh, {0.5f, 0, 8}, {1, 0, 10}, {1, 2, 3}),
-                            homogeneous_box({-1, -1, 0.5}, {1, 1, 3}, {0.2f, 0, 0}, {0.3f, 0, 0.1f})};
+  return profile_box(rough, kLow, kHigh, {0.5f, 0, 8}, {1, 0, 10}, {1, 2, 3});
+}
+
+void expect_parts_match_their_definition(std::vector<Medium> media) {
   const Color throughput{0.2f, 0.5f, 0.3f};
   RecordedRay<3> r(std::move(media), ray_along_z(-1), 0.037f, 0.3f, throughput);
+  Arena arena;
+  const ArenaScope scope(arena);
+  const float* const p = scattered_by_segment(*r, arena);
   double cdf = 0, emitted[3] = {};
   std::array<double, 3> tau = {};
   for (int i = 0; i < r->n; ++i) {
     const double delta = double(r->t[i + 1]) - double(r->t[i]);
+    double scattered = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       ASSERT_NEAR(r->tau[c][i], tau[c], 1e-5);
       const double sigma = double(r->sigma_t[c][i]),
-                   length = std::exp(-tau[c]) * (sigma > 0 ? -std::expm1(-sigma * delta) / sigma : delta);
-      ASSERT_NEAR(r->length[c][i] / length, 1, 2e-5);  // the error of tau is in the exponent
-      cdf += double(throughput[static_cast<int>(c)]) * double(r->sigma_s[c][i]) * length;
+                   length = std::exp(-tau[c]) * (sigma > 0 ? -std::expm1(-sigma * delta) / sigma : delta),
+                   part = double(throughput[static_cast<int>(c)]) * double(r->sigma_s[c][i]) * length;
+      ASSERT_NEAR(scattered_in(*r, i, static_cast<int>(c)), part, 2e-5 * part);  // the error of tau is in the exponent
+      scattered += part;
       emitted[c] += double(r->emission[c][i]) * length;
       tau[c] += sigma * delta;
     }
+    ASSERT_NEAR(p[i], scattered, 2e-5 * scattered);
+    cdf += scattered;
     ASSERT_NEAR(r->cdf[i + 1], cdf, 1e-5);
     ASSERT_GE(r->cdf[i + 1], r->cdf[i]);
   }
@@ -83,6 +89,33 @@ TEST(Distribute, EveryPartMatchesItsDefinitionInDouble) {
   EXPECT_EQ(r->scattered(), r->cdf[r->n]);
 }
 
+TEST(Distribute, EveryPartMatchesItsDefinitionInDouble) {
+  expect_parts_match_their_definition(
+      {rough_box(), homogeneous_box({-1, -1, 0.5}, {1, 1, 3}, {0.2f, 0, 0}, {0.3f, 0, 0.1f})});
+}
+
+// What is scattered is then a share of what the transmittance falls by, without another sum.
+TEST(Distribute, EveryPartOfASingleMediumMatchesItsDefinitionInDouble) {
+  expect_parts_match_their_definition({rough_box()});
+}
+
+// Product sampling may want what the differences of a float running sum cannot tell: far behind a dense front, and
+// where segments are so thin that the transmittance stays the same float.
+TEST(Distribute, WhatASegmentScattersIsPreciseBehindDenseMediaAndInThinOnes) {
+  for (const float front : {0.0f, 1.0f, 60.0f}) {
+    const auto profile = [front](float z) { return z < 1 ? front : 1e-9f; };
+    RecordedRay<1> r({profile_box(profile, kLow, kHigh, Color(0.5f), Color(1))}, ray_along_z(-1), 0.01f);
+    Arena arena;
+    const ArenaScope scope(arena);
+    const float* const p = scattered_by_segment(*r, arena);
+    for (int i = 101; i < r->n; ++i) {
+      const double delta = double(r->t[i + 1]) - double(r->t[i]), part = 0.5e-9 * delta * std::exp(-double(front));
+      ASSERT_NEAR(p[i], part, 1e-5 * part) << front;
+      ASSERT_NEAR(scattered_in(*r, i, 0), part, 1e-5 * part) << front;
+    }
+  }
+}
+
 TEST(Distribute, VeryThickMediaUnderflowToDarknessNotToNaN) {
   for (const float sigma : {100.0f, 1e4f, 1e9f}) {
     RecordedRay<1> r(
@@ -91,7 +124,10 @@ TEST(Distribute, VeryThickMediaUnderflowToDarknessNotToNaN) {
     EXPECT_NEAR(r->scattered(), 0.5, 1e-5);
     EXPECT_NEAR(emitted_radiance(*r).r * sigma, 1, 1e-5);
     EXPECT_EQ(transmittance(*r)[0], std::exp(-2 * sigma));
-    for (int i = 0; i < r->n; ++i) ASSERT_TRUE(r->length[0][i] >= 0 && r->length[0][i] <= 0.011f);
+    Arena arena;
+    const ArenaScope scope(arena);
+    const float* const p = scattered_by_segment(*r, arena);
+    for (int i = 0; i < r->n; ++i) ASSERT_TRUE(p[i] >= 0 && p[i] <= 0.5f + 1e-6f);
   }
 }
 
@@ -119,25 +155,6 @@ TEST(Distribute, SlabsAlignedWithSegmentsAreExactForEveryOffset) {
     EXPECT_NEAR(emitted_radiance(*r).r / emitted, 1, kFloatError) << "offset " << offset;
     EXPECT_NEAR(r->scattered() / (-std::expm1(-tau) / 3), 1, kFloatError) << "offset " << offset;
   }
-}
-
-TEST(ExpMinus, IsTheExponentialOfAsManyValuesAsThereAreAtEveryLevel) {
-  for (const std::string& level : simd_levels()) {
-    ASSERT_TRUE(force_simd_level(level).ok());
-    for (const int n : {0, 1, 3, 16, 37}) {
-      std::vector<float> values;
-      for (int i = 0; i <= n; ++i) values.push_back(i == 5 ? 100.0f : 0.37f * static_cast<float>(i * i));
-      const std::vector<float> before = values;
-      exp_minus(values.data(), n);
-      for (int i = 0; i < n; ++i) {
-        const auto at = static_cast<std::size_t>(i);
-        const double exact = before[at] < 87 ? std::exp(-double(before[at])) : 0;
-        EXPECT_NEAR(values[at], exact, 3e-7 * exact) << level << ' ' << before[at];
-      }
-      EXPECT_EQ(values.back(), before.back()) << level;
-    }
-  }
-  ASSERT_TRUE(force_simd_level("auto").ok());
 }
 
 }  // namespace

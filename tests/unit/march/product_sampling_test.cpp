@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/core/simd.h"
 #include "renderer/lights/quad_light.h"
 #include "renderer/phase/henyey_greenstein.h"
 #include "renderer/sampling/sampler.h"
 #include "tests/support/media.h"
+#include "tests/support/simd_levels.h"
 #include "tests/support/statistics.h"
 
 namespace brume {
@@ -29,7 +29,8 @@ void expect_a_density(const RecordedRay<C>& r, const Ray& ray, const LightPivot&
                       const PhaseFunction* phase, const char* what) {
   Arena arena;
   const ArenaScope scope(arena);
-  const ProductSampling<C> product(*r, ray, pivot, lit, phase, arena);
+  const float* const p = scattered_by_segment(*r, arena);
+  const ProductSampling<C> product(*r, p, ray, pivot, lit, phase, arena);
   ASSERT_GT(product.total(), 0) << what;
   const Interval span = intersect(r->span(), lit);
   RunningMean length, moment;
@@ -45,7 +46,7 @@ void expect_a_density(const RecordedRay<C>& r, const Ray& ray, const LightPivot&
   }
   double expected_length = 0, expected_moment = 0;
   for (int i = 0; i < r->n; ++i) {
-    if (!(r->p[i] > 0)) continue;
+    if (!(p[i] > 0)) continue;
     const bool touched = r->t[i] < lit.end && r->t[i + 1] > lit.begin;
     if (!touched) continue;
     const double a = double(r->t[i]), b = double(r->t[i + 1]);
@@ -57,21 +58,21 @@ void expect_a_density(const RecordedRay<C>& r, const Ray& ray, const LightPivot&
   EXPECT_NEAR(moment.mean(), expected_moment, 5 * moment.standard_error() + shaded * double(r->span().end)) << what;
 }
 
-TEST(ProductSampling, SamplesAreDrawnWithTheDensityTheyReport) {
-  for (const std::string& level : simd_levels()) {
-    ASSERT_TRUE(force_simd_level(level).ok());
-    const Ray ray = ray_along_z(-1);
-    const HenyeyGreenstein forward(0.7);
-    RecordedRay<1> grey(cloud(), ray, 0.07f);
-    RecordedRay<3> coloured(cloud({0.3f, 1, 4}), ray, 0.07f);
-    expect_a_density(grey, ray, lamp({3, 0, 2}), kAll, &forward, "a lamp outside");
-    expect_a_density(grey, ray, lamp({0.02f, 0, 2}), kAll, nullptr, "a lamp next to the ray");
-    expect_a_density(grey, ray, lamp({0.02f, 0, 2}, 0.3f), kAll, &forward, "a large lamp");
-    expect_a_density(coloured, ray, lamp({0.3f, 0, 2}), kAll, &forward, "three channels");
-    expect_a_density(grey, ray, lamp({0.3f, 0, 2}), {2, 3.1f}, nullptr, "a cone");
-  }
-  ASSERT_TRUE(force_simd_level("auto").ok());
+class ProductSamplingAt : public AtSimdLevel {};
+
+TEST_P(ProductSamplingAt, SamplesAreDrawnWithTheDensityTheyReport) {
+  const Ray ray = ray_along_z(-1);
+  const HenyeyGreenstein forward(0.7);
+  RecordedRay<1> grey(cloud(), ray, 0.07f);
+  RecordedRay<3> coloured(cloud({0.3f, 1, 4}), ray, 0.07f);
+  expect_a_density(grey, ray, lamp({3, 0, 2}), kAll, &forward, "a lamp outside");
+  expect_a_density(grey, ray, lamp({0.02f, 0, 2}), kAll, nullptr, "a lamp next to the ray");
+  expect_a_density(grey, ray, lamp({0.02f, 0, 2}, 0.3f), kAll, &forward, "a large lamp");
+  expect_a_density(coloured, ray, lamp({0.3f, 0, 2}), kAll, &forward, "three channels");
+  expect_a_density(grey, ray, lamp({0.3f, 0, 2}), {2, 3.1f}, nullptr, "a cone");
 }
+
+INSTANTIATE_TEST_SUITE_P(Levels, ProductSamplingAt, testing::ValuesIn(simd_levels()), simd_level_name);
 
 TEST(ProductSampling, TheTotalIsTheUnshadowedLightOfTheRay) {
   // In thin segments far from the light the midpoint rule has an error of second order only.
@@ -81,17 +82,18 @@ TEST(ProductSampling, TheTotalIsTheUnshadowedLightOfTheRay) {
   RecordedRay<1> r(media, ray, 0.01f);
   Arena arena;
   const ArenaScope scope(arena);
+  const float* const p = scattered_by_segment(*r, arena);
   const HenyeyGreenstein phase(0.4);
   const auto expect_total = [&](const LightPivot& pivot, const std::function<double(double)>& factor,
                                 Interval lit = kAll) {
-    const ProductSampling<1> product(*r, ray, pivot, lit, &phase, arena);
+    const ProductSampling<1> product(*r, p, ray, pivot, lit, &phase, arena);
     double expected = 0;
     for (int i = 0; i < r->n; ++i) {
       if (r->t[i + 1] <= lit.begin || r->t[i] >= lit.end) continue;
       const double t = 0.5 * (double(r->t[i]) + double(r->t[i + 1]));
       const Vec3 x = ray.at(static_cast<float>(t)), to_light = pivot.position - x;
       const double r2 = double(length_squared(to_light)), cosine = double(dot(ray.direction, to_light)) / std::sqrt(r2);
-      expected += double(r->p[i]) / r2 * double(phase.value(static_cast<float>(cosine))) * factor(t);
+      expected += double(p[i]) / r2 * double(phase.value(static_cast<float>(cosine))) * factor(t);
     }
     EXPECT_NEAR(product.total() / expected, 1, 1e-4);
   };
@@ -112,13 +114,14 @@ TEST(ProductSampling, EverySegmentThatIsLitInPartCanBeDrawn) {
   ASSERT_EQ(r->n, 1);
   Arena arena;
   const ArenaScope scope(arena);
+  const float* const p = scattered_by_segment(*r, arena);
   for (const float z : {0.1f, 1.0f, 3.9f}) {
     LightPivot flat = lamp({0.5f, 0.5f, z});
     flat.normal = {0, 0, 1};
-    const ProductSampling<1> product(*r, ray, flat, {z + 1, 100}, nullptr, arena);
+    const ProductSampling<1> product(*r, p, ray, flat, {z + 1, 100}, nullptr, arena);
     EXPECT_GT(product.total(), 0) << z;
     flat.normal = {0, 0, -1};
-    const ProductSampling<1> below(*r, ray, flat, {0, z + 1}, nullptr, arena);
+    const ProductSampling<1> below(*r, p, ray, flat, {0, z + 1}, nullptr, arena);
     EXPECT_GT(below.total(), 0) << z;
   }
 }
@@ -129,7 +132,7 @@ TEST(ProductSampling, ALampOnTheRayGivesFiniteSamples) {
   RecordedRay<1> r(cloud(), ray, 0.07f);
   Arena arena;
   const ArenaScope scope(arena);
-  const ProductSampling<1> product(*r, ray, lamp({0, 0, 2}), kAll, nullptr, arena);
+  const ProductSampling<1> product(*r, scattered_by_segment(*r, arena), ray, lamp({0, 0, 2}), kAll, nullptr, arena);
   for (std::uint32_t i = 0; i < 10000; ++i) {
     const auto [at, pdf] = product.sample(number(i));
     ASSERT_TRUE(std::isfinite(at.t) && pdf > 0 && std::isfinite(pdf));
@@ -141,7 +144,7 @@ TEST(ProductSampling, NothingIsDrawnWhereNoLightComes) {
   RecordedRay<1> r(cloud(), ray, 0.1f);
   Arena arena;
   const ArenaScope scope(arena);
-  const ProductSampling<1> dark(*r, ray, lamp({3, 0, 2}), {100, 200}, nullptr, arena);
+  const ProductSampling<1> dark(*r, scattered_by_segment(*r, arena), ray, lamp({3, 0, 2}), {100, 200}, nullptr, arena);
   EXPECT_EQ(dark.total(), 0);
 }
 
