@@ -26,8 +26,8 @@ struct BenchOptions {
   std::function<void(const std::string&)> progress = {};
 };
 
-/// Measures one thing after the other, some ten seconds in all. Every time is the least of several repetitions, because
-/// other programs only ever add time. Errors: a scene that cannot be read.
+/// Measures one thing after the other, some fifteen seconds in all. Every time is the least of several repetitions,
+/// because other programs only ever add time. Errors: a scene that cannot be read.
 Result<std::vector<BenchResult>> run_bench(const BenchOptions& options);
 
 }  // namespace brume

@@ -15,6 +15,9 @@ struct LimitCycles {
 };
 LimitCycles limit_cycles(const std::string& simd_level);
 
+/// Whether this processor is of the kind that those cycles were measured on; others have other limits.
+bool is_processor_of_limit_cycles();
+
 /// Trilinear samples at first + k * step, k in [0, n), in index space, all of them inside the table and not on its
 /// upper faces. Writes up to 64 values.
 /// @param grid  in Quad layout
