@@ -43,6 +43,11 @@ float draw_plate(const PictureArea& area, float below_top, const std::string& te
   return size.y + em * 1.8f;
 }
 
+std::string samples_text(const Picture& picture) {
+  if (!picture.preview) return std::to_string(picture.statistics.samples_per_pixel) + " spp";
+  return picture.divisor > 1 ? "coarse 1/" + std::to_string(picture.divisor) : "preview";
+}
+
 void draw_variant_label(const Session& session, std::size_t index, float left, const PictureArea& area) {
   ImGui::GetWindowDrawList()->PushClipRect(area.min, area.max, true);
   draw_line(left, area.min.y, std::to_string(index + 1) + "  " + session.shown()[index].variant.name, plain_color(),
@@ -54,8 +59,7 @@ void draw_variant_figures(const Session& session, std::size_t index, const Pictu
   const auto picture = session.picture(index);
   if (!picture) return;
   const RenderStatistics& s = picture->statistics;
-  std::string text = picture->divisor > 1 ? "coarse 1/" + std::to_string(picture->divisor)
-                                          : std::to_string(s.samples_per_pixel) + " spp";
+  std::string text = samples_text(*picture);
   const double rays = static_cast<double>(s.rays.rays + s.rays.shadow_rays);
   text += measured ? formatted("   %.2f CPU s", s.cpu_seconds) : "   - CPU s";
   text += measured && s.cpu_seconds > 0 ? formatted("   %.2f Mrays/s", 1e-6 * rays / s.cpu_seconds) : "   - Mrays/s";
@@ -66,7 +70,7 @@ void draw_variant_figures(const Session& session, std::size_t index, const Pictu
   if (measured && last != errors->rows.end())
     text += formatted("   RMSE %.2g", last->errors.rmse) +
             formatted("   bias %+.2f %%", 100 * last->errors.relative_mean_bias);
-  else if (picture->divisor == 1)
+  else if (!picture->preview)
     text += formatted("   noise %.2f %%", 100 * picture->noise);
   ImGui::GetWindowDrawList()->PushClipRect(area.min, area.max, true);
   draw_line(area.min.x, area.max.y - std::floor(1.4f * ImGui::GetFontSize()), text,

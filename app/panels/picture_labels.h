@@ -16,6 +16,9 @@ ImU32 variant_color(std::size_t index);
 /// A text on a dark plate, centred, its top so far below the top of the area.  @return the plate's height
 float draw_plate(const PictureArea& area, float below_top, const std::string& text, ImU32 color = 0);
 
+/// Samples per pixel, or what kind of preview it is.
+std::string samples_text(const Picture& picture);
+
 /// The variant's name at the upper left of the area, or from `left` on.
 void draw_variant_label(const Session& session, std::size_t index, float left, const PictureArea& area);
 

@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include "app/panels/picture_labels.h"
 #include "app/ui/formatted.h"
 #include "app/ui/widgets.h"
 
@@ -27,14 +28,12 @@ void draw_status_bar(const Session& session, bool measured) {
     return;
   }
   const RenderStatistics& s = picture->statistics;
-  item(picture->divisor > 1 ? "coarse 1/" + std::to_string(picture->divisor)
-                            : std::to_string(s.samples_per_pixel) + " spp",
-       "Samples per pixel of the picture.");
+  item(samples_text(*picture), "Samples per pixel of the picture.");
   const double rays = static_cast<double>(s.rays.rays + s.rays.shadow_rays);
   item(measured ? formatted("%.1f s", s.wall_seconds) : "- s", "Time spent on this picture.");
   item(measured && s.wall_seconds > 0 ? formatted("%.2f Mrays/s", 1e-6 * rays / s.wall_seconds) : "- Mrays/s",
        "Camera, scattered and shadow rays per second.");
-  item(picture->divisor > 1 ? "noise -" : "noise " + formatted("%.2f %%", 100 * picture->noise),
+  item(picture->preview ? "noise -" : "noise " + formatted("%.2f %%", 100 * picture->noise),
        "Estimated noise of the whole picture, relative to its mean: from a few pixels that are rendered twice.");
   item(measured ? std::to_string(s.threads) + (s.threads == 1 ? " thread" : " threads") : "- threads",
        "Threads that render.");

@@ -53,7 +53,7 @@ std::optional<Job> Truth::job() const {
 bool Truth::see(const std::shared_ptr<const Picture>& picture, double time) {
   if (!job()) return false;
   if (found_.kept.cpu_seconds >= time) return done_ = true;
-  const bool of_it = picture && picture->divisor == 1 && picture->generation == found_.key.scene->generation &&
+  const bool of_it = picture && !picture->preview && picture->generation == found_.key.scene->generation &&
                      picture->width == found_.key.width && picture->height == found_.key.height;
   // Of fewer than two samples the variance is unknown.
   if (!of_it || picture == seen_ || picture->statistics.samples_per_pixel < 2) return false;

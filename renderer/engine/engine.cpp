@@ -14,6 +14,9 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 constexpr double kFirstLookSeconds = 0.033;  // the coarse first pictures after an edit may take this long together
 constexpr double kTurnSeconds = 0.1;         // of one job among several
 constexpr int kMaxDivisor = 32;
+// Where a pass draws more light samples of each light, a preview of the full resolution comes before the first one. It
+// is soon there, and with so many samples the first pass would be late.
+constexpr int kFewLightSamples = 4;
 constexpr double kGuessedSecondsPerRay = 20e-6;                        // before anything was measured: on the safe side
 constexpr auto kLeastPublishInterval = std::chrono::milliseconds(15);  // no display shows more pictures than that
 
@@ -30,7 +33,8 @@ struct Engine::Progress {
   std::size_t index = 0;
   std::unique_ptr<const Integrator> integrator = {};
   Film film = {};        // of older samples until the first full pass
-  int divisor = 0;       // of the next coarse pass; 1: the film's passes; 0: nothing has been shown yet
+  bool shown = false;    // a first picture has been published
+  int preview = 0;       // divisor of the next preview; 0: the film's passes
   int next_tile = 0;     // of the film's pass under way
   bool spoiled = false;  // a pass was given up in the middle: some pixels have a sample more than others
   RenderStatistics statistics = {};
@@ -88,8 +92,8 @@ Cancelled Engine::cancelled() const {
 std::optional<std::size_t> Engine::next_job(const std::vector<Progress>& jobs) const {
   std::vector<Turn> turns;
   for (const Progress& job : jobs)
-    turns.push_back({.waits = !job.finished() && (!paused_ || job.divisor == 0),
-                     .shown = job.divisor != 0,
+    turns.push_back({.waits = !job.finished() && (!paused_ || !job.shown),
+                     .shown = job.shown,
                      .samples = job.samples(),
                      .cpu_seconds = job.statistics.cpu_seconds});
   return next_turn(turns, share_, first_look_);
@@ -172,32 +176,34 @@ void Engine::start_film(Progress& job) {
 
 void Engine::render_next(Progress& job, std::size_t jobs) {
   const double cpu_before = job.statistics.cpu_seconds;
-  const double rays = job.divisor == 1 ? render_slice(job, jobs) : render_coarsely(job, jobs);
+  const double rays = job.shown && job.preview == 0 ? render_slice(job, jobs) : render_next_preview(job, jobs);
   if (rays > 0) seconds_per_ray_[job.index] = std::max((job.statistics.cpu_seconds - cpu_before) / rays, 1e-9);
 }
 
-double Engine::render_coarsely(Progress& job, std::size_t jobs) {
+double Engine::render_next_preview(Progress& job, std::size_t jobs) {
   const auto start = Clock::now();
   const int width = job.job.width, height = job.job.height;
   const double pixels = static_cast<double>(width) * height;
-  const bool first = job.divisor == 0;
+  const bool first = !job.shown;
   if (first) {
     first_look_ = job.index + 1;
     // As fine as fits the time that a first look may take, but coarse even where the full picture would fit: it is
     // always completed, whatever it turns out to cost.
     const double affordable =
         kFirstLookSeconds / static_cast<double>(jobs) * pool_.threads() / seconds_per_ray_[job.index];
-    job.divisor = 2;
-    while (job.divisor < kMaxDivisor && pixels / (job.divisor * job.divisor) > affordable) job.divisor *= 2;
+    job.preview = 2;
+    while (job.preview < kMaxDivisor && pixels / (job.preview * job.preview) > affordable) job.preview *= 2;
   }
   Image image;
-  const bool complete = render_coarse(*job.job.scene, *job.integrator, width, height, job.divisor, image, pool_,
-                                      first ? Cancelled() : cancelled());
+  const bool complete = render_preview(*job.job.scene, *job.integrator, width, height, job.preview, image, pool_,
+                                       first ? Cancelled() : cancelled());
   account(job, start);
   if (!complete) return 0;
-  publish(job, {std::move(image)}, job.divisor);
-  const double rays = pixels / (job.divisor * job.divisor);
-  job.divisor /= 2;
+  publish(job, {std::move(image)}, job.preview);
+  const double rays = pixels / (job.preview * job.preview);
+  job.shown = true;
+  job.preview /= 2;
+  if (job.preview == 1 && job.job.scene->light_samples <= kFewLightSamples) job.preview = 0;
   return rays;
 }
 
@@ -223,17 +229,19 @@ double Engine::render_slice(Progress& job, std::size_t jobs) {
     job.next_tile = 0;
     ++job.statistics.samples_per_pixel;
     if (Clock::now() - job.published >= kLeastPublishInterval || job.finished())
-      publish(job, view_of(job.film, pool_), 1);
+      publish(job, view_of(job.film, pool_), 0);
   }
   return static_cast<double>(width) * height * (*end - turn.first) / tiles;
 }
 
-void Engine::publish(Progress& job, FilmView view, int divisor) {
+/// @param preview  divisor of the preview; 0: the film's picture
+void Engine::publish(Progress& job, FilmView view, int preview) {
   auto picture = std::make_shared<Picture>();
   picture->image = std::move(view.mean);
   picture->width = job.job.width;
   picture->height = job.job.height;
-  picture->divisor = divisor;
+  picture->divisor = std::max(preview, 1);
+  picture->preview = preview > 0;
   picture->generation = job.job.scene->generation;
   picture->noise = view.noise;
   picture->variance = view.variance;

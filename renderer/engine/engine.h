@@ -24,10 +24,11 @@ struct RenderStatistics {
 struct Picture {
   Image image;  ///< mean radiance; smaller than width x height while the picture is coarse
   int width = 0, height = 0;
-  int divisor = 1;  ///< 1: full resolution
+  int divisor = 1;       ///< 1: full resolution
+  bool preview = false;  ///< as render_preview(): not a sample per pixel yet
   std::uint64_t generation = 0;
-  double noise = 0;       ///< relative, as Film::noise_estimate; 0 while coarse
-  double variance = 0;    ///< as Film::mean_variance; 0 while coarse
+  double noise = 0;       ///< relative, as Film::noise_estimate; 0 of previews
+  double variance = 0;    ///< as Film::mean_variance; 0 of previews
   bool finished = false;  ///< the budget is used up
   RenderStatistics statistics;
 };
@@ -85,10 +86,10 @@ class Engine {
   Cancelled cancelled() const;
   void render_next(Progress& job, std::size_t jobs);
   /// Both return the number of camera rays, 0 when they were cancelled.
-  double render_coarsely(Progress& job, std::size_t jobs);
+  double render_next_preview(Progress& job, std::size_t jobs);
   double render_slice(Progress& job, std::size_t jobs);
   void start_film(Progress& job);
-  void publish(Progress& job, FilmView view, int divisor);
+  void publish(Progress& job, FilmView view, int preview);
   void account(Progress& job, std::chrono::steady_clock::time_point start);
 
   WorkerPool pool_;

@@ -63,15 +63,16 @@ std::optional<int> for_each_pixel(const Grid& grid, WorkerPool& pool, const Canc
 
 }  // namespace
 
-Color sample_pixel(const Scene& scene, const Integrator& integrator, const PixelPlace& place, const SamplerPass& pass,
-                   Arena& arena, RayStatistics& statistics, RayDiagnostics* diagnostics) {
-  const Sampler sampler(pass, place.x, place.y, place.width);
+Color sample_pixel(const PixelPass& pass, const PixelPlace& place, Arena& arena, RayStatistics& statistics,
+                   RayDiagnostics* diagnostics) {
+  const Scene& scene = pass.scene;
+  const Sampler sampler(pass.numbers, place.x, place.y, place.width);
   const Vec2 inside = sampler.u2(Decision::Pixel);
   const float width = static_cast<float>(place.width), height = static_cast<float>(place.height);
   const Ray ray = scene.camera.ray((static_cast<float>(place.x) + inside.x) / width,
                                    (static_cast<float>(place.y) + inside.y) / height, width / height);
-  SampleContext context{scene, sampler, arena, statistics, diagnostics};
-  return integrator.radiance(ray, context);
+  SampleContext context{scene, sampler, arena, statistics, diagnostics, pass.preview};
+  return pass.integrator.radiance(ray, context);
 }
 
 int tile_count(int width, int height) {
@@ -86,21 +87,22 @@ std::optional<int> render_pass(const Scene& scene, const Integrator& integrator,
   const SamplerPass twin_pass(scene.render.sampler, scene.render.seed ^ kTwinSeed, sample);
   return for_each_pixel(grid, pool, cancelled, tiles, enough, [&](int x, int y, Worker& worker) {
     const auto one = [&](const SamplerPass& numbers) {
-      return sample_pixel(scene, integrator, {x, y, grid.width, grid.height}, numbers, worker.arena, worker.statistics);
+      return sample_pixel({scene, integrator, numbers}, {x, y, grid.width, grid.height}, worker.arena,
+                          worker.statistics);
     };
     if (!film.add_sample(x, y, one(pass))) ++worker.statistics.non_finite;
     if (Film::has_twin(x, y)) film.add_twin_sample(x, y, one(twin_pass));
   });
 }
 
-bool render_coarse(const Scene& scene, const Integrator& integrator, int width, int height, int divisor, Image& image,
-                   WorkerPool& pool, const Cancelled& cancelled) {
+bool render_preview(const Scene& scene, const Integrator& integrator, int width, int height, int divisor, Image& image,
+                    WorkerPool& pool, const Cancelled& cancelled) {
   const Grid grid{(width + divisor - 1) / divisor, (height + divisor - 1) / divisor};
-  const SamplerPass pass(scene.render.sampler, scene.render.seed, 0);
+  const SamplerPass numbers(scene.render.sampler, scene.render.seed, 0);
+  const PixelPass pass{scene, integrator, numbers, true};
   image = Image(grid.width, grid.height);
   const auto end = for_each_pixel(grid, pool, cancelled, {}, {}, [&](int x, int y, Worker& worker) {
-    const Color c =
-        sample_pixel(scene, integrator, {x, y, grid.width, grid.height}, pass, worker.arena, worker.statistics);
+    const Color c = sample_pixel(pass, {x, y, grid.width, grid.height}, worker.arena, worker.statistics);
     if (is_finite(c))
       image.at(x, y) = c;
     else

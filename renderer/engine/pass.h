@@ -24,10 +24,17 @@ struct PixelPlace {
   bool operator==(const PixelPlace&) const = default;
 };
 
+/// What the samples of a pass have in common.
+struct PixelPass {
+  const Scene& scene;
+  const Integrator& integrator;
+  const SamplerPass& numbers;  ///< of sample number n: SamplerPass(scene.render.sampler, scene.render.seed, n)
+  bool preview = false;        ///< as SampleContext::preview
+};
+
 /// One sample of a pixel, the same that render_pass() adds to a film.
-/// @param pass  of sample number n: SamplerPass(scene.render.sampler, scene.render.seed, n)
-Color sample_pixel(const Scene& scene, const Integrator& integrator, const PixelPlace& place, const SamplerPass& pass,
-                   Arena& arena, RayStatistics& statistics, RayDiagnostics* diagnostics = nullptr);
+Color sample_pixel(const PixelPass& pass, const PixelPlace& place, Arena& arena, RayStatistics& statistics,
+                   RayDiagnostics* diagnostics = nullptr);
 
 /// Some of a picture's tiles, which are numbered by rows.
 struct TileRange {
@@ -45,10 +52,11 @@ std::optional<int> render_pass(const Scene& scene, const Integrator& integrator,
                                WorkerPool& pool, const Cancelled& cancelled, TileRange tiles = {},
                                const Cancelled& enough = {});
 
-/// A picture of the same view, smaller by `divisor` in width and height (rounded up), one sample per pixel.
+/// A picture of the same view, smaller by `divisor` in width and height (rounded up), of one sample per pixel with one
+/// light sample of each light.
 /// @param width, height  of the full picture.  @return false when it was cancelled
-bool render_coarse(const Scene& scene, const Integrator& integrator, int width, int height, int divisor, Image& image,
-                   WorkerPool& pool, const Cancelled& cancelled);
+bool render_preview(const Scene& scene, const Integrator& integrator, int width, int height, int divisor, Image& image,
+                    WorkerPool& pool, const Cancelled& cancelled);
 
 /// What there is to show of a film.
 struct FilmView {

@@ -62,7 +62,7 @@ void LiveSweep::set_reference(std::shared_ptr<const Reference> reference) {
 
 void LiveSweep::see(std::size_t variant, const std::shared_ptr<const Picture>& picture) {
   const std::lock_guard lock(mutex_);
-  if (!picture || picture->divisor > 1 || !reference_ || variant >= samples_.size()) return;
+  if (!picture || picture->preview || !reference_ || variant >= samples_.size()) return;
   if (picture->generation != sweep_->scenes[variant]->generation) return;
   if (reference_->image.width != picture->width || reference_->image.height != picture->height) return;
   const int samples = picture->statistics.samples_per_pixel;

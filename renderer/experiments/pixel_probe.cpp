@@ -88,7 +88,7 @@ std::optional<PixelProbe> probe_pixel(const Scene& scene, const Integrator& inte
     if (cancel.stop_requested()) return std::nullopt;
     RayDiagnostics met;
     const SamplerPass numbers(scene.render.sampler, scene.render.seed, static_cast<std::uint32_t>(pass));
-    const Color c = sample_pixel(scene, integrator, options.place, numbers, arena, statistics, &met);
+    const Color c = sample_pixel({scene, integrator, numbers}, options.place, arena, statistics, &met);
     if (!is_finite(c)) {
       ++out.non_finite;
       continue;

@@ -109,7 +109,7 @@ Result<std::vector<SweepRow>> measure(std::size_t index, const Scene& scene, con
   // What is touched for the first time, memory and code, costs time that is nobody's.
   Image warm;
   const auto integrator = make_integrator(scene);
-  render_coarse(scene, *integrator, options.width, options.height, 4, warm, pool, {});
+  render_preview(scene, *integrator, options.width, options.height, 4, warm, pool, {});
 
   std::vector<SweepRow> rows;
   std::optional<Error> error;

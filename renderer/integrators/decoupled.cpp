@@ -37,7 +37,7 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
     if (rec.empty() && !surface) return radiance;
 
     // estimate
-    const int light_samples = bounce == 0 || scene.render.light_samples ? scene.light_samples : 1;
+    const int light_samples = bounce == 0 || scene.render.light_samples ? context.light_samples() : 1;
     MarchedShadows<C> shadows(bounce, context);
     if (!rec.empty()) {
       radiance += beta * emitted_radiance(rec);

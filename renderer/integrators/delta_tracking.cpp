@@ -45,12 +45,12 @@ template <int C> Color trace(Ray ray, int c, SampleContext& context) {
       if (beta == 0) return radiance;
       const Vec3 x = ray.at(real->t);
       const PhaseMixture<C> phase(scene, ray.direction, real->densities);
-      light_at_point<C>(x, phase, Color(beta), bounce, 0, scene.light_samples, context, shadows);
+      light_at_point<C>(x, phase, Color(beta), bounce, 0, context.light_samples(), context, shadows);
       radiance += shadows.light();
       if (!turn(x, phase)) return radiance;
     } else {
       if (!surface) return radiance;
-      light_at_surface<C>(*surface, Color(beta), bounce, 0, scene.light_samples, context, shadows);
+      light_at_surface<C>(*surface, Color(beta), bounce, 0, context.light_samples(), context, shadows);
       radiance += shadows.light();
       if (!turn(surface->position, DiffuseReflection<C>(surface->normal, surface->albedo))) return radiance;
     }

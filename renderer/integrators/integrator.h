@@ -45,6 +45,10 @@ struct SampleContext {
   Arena& arena;
   RayStatistics& statistics;
   RayDiagnostics* diagnostics = nullptr;  ///< absent: nothing is written
+  bool preview = false;                   ///< a picture soon matters more than a good one
+
+  /// Of each light at a vertex of a path.
+  int light_samples() const { return preview ? 1 : scene.light_samples; }
 
   void note(int bounce, Vec3 position, DistanceTechnique technique, Color carried) const {
     if (diagnostics && bounce == 0) diagnostics->light_samples.push_back({position, technique, luminance(carried)});

@@ -49,7 +49,7 @@ template <int C> struct Leg {
     const Color value = to_color(path.f * n * at.sigma_s) / tracked;
     if (is_black(value)) return {};
     TrackedShadows<C> shadows(bounce, context);
-    for_light_samples(bounce, 0, context.scene.light_samples, context,
+    for_light_samples(bounce, 0, context.light_samples(), context,
                       [&](const Light& light, float factor, const LightNumbers& numbers, int k) {
                         LightPoint point = light.sample_point(numbers.point(k));
                         const IncomingLight in =
@@ -69,7 +69,7 @@ template <int C> struct Leg {
   Color about_lights(Interval inside) const {
     TrackedShadows<C> shadows(bounce, context);
     for_light_samples(
-        bounce, 1, context.scene.light_samples, context,
+        bounce, 1, context.light_samples(), context,
         [&](const Light& light, float factor, const LightNumbers& numbers, int k) {
           const LightPoint point = light.sample_point(numbers.point(k));
           if (point.kind != LightPoint::Kind::Finite) return;
@@ -158,7 +158,7 @@ template <int C> Color trace(Ray ray, SampleContext& context) {
       path.f = path.f * n;
       path.p = path.p * n;
       TrackedShadows<C> shadows(bounce, context);
-      light_at_surface<C>(*surface, to_color(path.f) / mean_of(path.p), bounce, 2, scene.light_samples, context,
+      light_at_surface<C>(*surface, to_color(path.f) / mean_of(path.p), bounce, 2, context.light_samples(), context,
                           shadows);
       radiance += shadows.light();
       if (!turn(surface->position, DiffuseReflection<C>(surface->normal, surface->albedo))) return radiance;

@@ -49,7 +49,7 @@ template <int C> Color RayMarchIntegrator::trace(Ray ray, SampleContext& context
     Shadows<C> shadows(*this, bounce, context);
 
     // The samples of a light are numbered along the ray, step after step, so that they are spread over all of them.
-    const int samples = scene.light_samples, all = rec.n * samples;
+    const int samples = context.light_samples(), all = rec.n * samples;
     const bool scatters = !rec.empty() && rec.scattered() > 0;
     for_lights(bounce, 0, all, context, [&](const Light& light, float weight, const LightNumbers& numbers) {
       for (int i = 0; scatters && i < rec.n; ++i) {

@@ -90,7 +90,7 @@ template <int C> struct Marching {
   }
 
   /// Distances on a ray, each with one sample of each light.
-  int samples() const { return context.scene.light_samples; }
+  int samples() const { return context.light_samples(); }
 
   /// @param surface  that closes the ray
   void march(const std::optional<SurfaceHit>& surface) {

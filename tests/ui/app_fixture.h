@@ -59,7 +59,7 @@ class AppFixture : public testing::Test {
     if (samples_ != kEndless) return session_->finished();
     if (!session_->up_to_date()) return false;
     for (std::size_t i = 0; i < session_->shown().size(); ++i)
-      if (session_->picture(i)->divisor > 1) return false;
+      if (session_->picture(i)->preview) return false;
     return true;
   }
 

@@ -22,7 +22,7 @@ constexpr int kSlow = 1;
 constexpr int kWidth = 45, kHeight = 37;  // no multiples of a tile, so that there are parts of tiles
 
 /// A marched medium in two colours of light; `brightness` tells the pictures of edits apart.
-std::shared_ptr<const Scene> scene_of(std::uint64_t generation, double brightness = 1, const char* bounces = "1") {
+Node description_of(double brightness = 1, const char* bounces = "1") {
   Node scene = empty_scene();
   set(scene, "render.bounces", bounces);
   set(scene, "camera.position", "0,-4,0.5");
@@ -33,7 +33,11 @@ std::shared_ptr<const Scene> scene_of(std::uint64_t generation, double brightnes
   set(v, "phase.g", "0.4");
   set(add_light(scene, "point"), "intensity", format_value(Numbers{brightness, brightness, 2 * brightness}));
   set(add_light(scene, "environment"), "radiance", "0.1,0.2,0.3");
-  return committed(scene, generation);
+  return scene;
+}
+
+std::shared_ptr<const Scene> scene_of(std::uint64_t generation, double brightness = 1, const char* bounces = "1") {
+  return committed(description_of(brightness, bounces), generation);
 }
 
 Image batch(const Scene& scene, int samples, int threads, int width = kWidth, int height = kHeight) {
@@ -124,15 +128,15 @@ TEST(RenderCoarse, IsTheSameViewWithFewerPixels) {
   const auto integrator = make_integrator(*scene);
   WorkerPool pool(2);
   Image coarse;
-  ASSERT_TRUE(render_coarse(*scene, *integrator, 64, 48, 4, coarse, pool, {}));
+  ASSERT_TRUE(render_preview(*scene, *integrator, 64, 48, 4, coarse, pool, {}));
   EXPECT_EQ(coarse.width, 16);
   EXPECT_EQ(coarse.height, 12);
-  ASSERT_TRUE(render_coarse(*scene, *integrator, kWidth, kHeight, 8, coarse, pool, {}));
+  ASSERT_TRUE(render_preview(*scene, *integrator, kWidth, kHeight, 8, coarse, pool, {}));
   EXPECT_EQ(coarse.width, 6);  // rounded up
   EXPECT_EQ(coarse.height, 5);
   // Brightness of the whole picture: one sample per coarse pixel against the mean of many.
   RunningMean few, many;
-  ASSERT_TRUE(render_coarse(*scene, *integrator, 128, 128, 2, coarse, pool, {}));
+  ASSERT_TRUE(render_preview(*scene, *integrator, 128, 128, 2, coarse, pool, {}));
   for (const Color& c : coarse.pixels) few.add(double(mean(c)));
   for (const Color& c : batch(*scene, 8, 2, 64, 64).pixels) many.add(double(mean(c)));
   EXPECT_NEAR(few.mean(), many.mean(), 6 * few.standard_error());
@@ -307,6 +311,42 @@ TEST(Engine, AnEditWhilePausedIsShownCoarselyOnceAndNoFurther) {
     EXPECT_EQ(first->statistics.samples_per_pixel, 0);
     std::this_thread::sleep_for(kSlow * 20ms);
     EXPECT_EQ(engine.picture(), first) << "more than the coarse picture was rendered in a pause";
+  }
+}
+
+// With many light samples the first pass is late; with few it is as soon there as a preview.
+TEST(Engine, AFullPreviewComesFirstWherePassesDrawManyLightSamples) {
+  for (const int light_samples : {2, 16}) {
+    Node description = description_of();
+    set(description, "render.light_samples", std::to_string(light_samples));
+    const auto scene = committed(description);
+    std::mutex mutex;
+    std::vector<std::shared_ptr<const Picture>> seen;
+    Engine* shown = nullptr;
+    EngineOptions options{.threads = 2};
+    options.on_picture = [&] {
+      const std::lock_guard lock(mutex);
+      if (shown) seen.push_back(shown->picture());
+    };
+    Engine engine(options);
+    {
+      const std::lock_guard lock(mutex);
+      shown = &engine;
+    }
+    engine.submit({{scene, 200, 100, 2}});
+    ASSERT_TRUE(eventually([&] { return finished(engine, 0, scene->generation); }));
+    const std::lock_guard lock(mutex);
+    int full_previews = 0;
+    bool film_began = false;
+    for (const auto& p : seen) {
+      film_began |= !p->preview;
+      if (!p->preview) continue;
+      EXPECT_FALSE(film_began) << "a preview after a picture of the film";
+      EXPECT_EQ(p->statistics.samples_per_pixel, 0);
+      full_previews += p->divisor == 1 ? 1 : 0;
+    }
+    EXPECT_EQ(full_previews, light_samples == 16 ? 1 : 0);
+    EXPECT_TRUE(engine.picture()->image == batch(*scene, 2, 2, 200, 100)) << "the preview is not in the film";
   }
 }
 
