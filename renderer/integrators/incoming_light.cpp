@@ -14,17 +14,27 @@ template <int C> void LightTechnique<C>::hide(IncomingLight& in, Vec3 x) const {
     in.scattered = {};
 }
 
+/// @param share  of the directions that are drawn by the scatterer.  @param combined  weighed against those
 template <int C>
 template <Scatterer<C> S>
-IncomingLight LightTechnique<C>::towards(const LightPoint& point, Vec3 x, const S& scatterer) const {
+IncomingLight LightTechnique<C>::by_point(const LightPoint& point, Vec3 x, const S& scatterer, float share,
+                                          bool combined) const {
   const IncidentLight incident = light_.incident(point, x);
   IncomingLight in{incident.wi, incident.distance, {}};
   if (is_black(incident.irradiance)) return in;
   in.scattered = to_color(scatterer.value(in.wi)) * incident.irradiance;
-  const float share = chance_share(x, scatterer.peak());
-  if (share > 0 && incident.pdf_w > 0) in.pdf_ratio = (1 - share) + share * scatterer.pdf_w(in.wi) / incident.pdf_w;
+  if (share > 0 && incident.pdf_w > 0) {
+    in.pdf_ratio = (1 - share) + share * scatterer.pdf_w(in.wi) / incident.pdf_w;
+    if (combined) in.scattered *= 1 / in.pdf_ratio;
+  }
   hide(in, x);
   return in;
+}
+
+template <int C>
+template <Scatterer<C> S>
+IncomingLight LightTechnique<C>::towards(const LightPoint& point, Vec3 x, const S& scatterer) const {
+  return by_point(point, x, scatterer, chance_share(x, scatterer.peak()), false);
 }
 
 template <int C>
@@ -43,11 +53,8 @@ IncomingLight LightTechnique<C>::draw(LightPoint& point, Vec3 x, const S& scatte
     return in;
   }
   const float share = chance_share(x, scatterer.peak());
-  if (share == 0 || sampler.u1(Decision::LightByChance, bounce_, index_) >= share) {
-    IncomingLight in = towards(point, x, scatterer);
-    in.scattered *= 1 / in.pdf_ratio;
-    return in;
-  }
+  if (share == 0 || sampler.u1(Decision::LightByChance, bounce_, index_) >= share)
+    return by_point(point, x, scatterer, share, true);
   const Vec3 wi = by_chance();
   const auto hit = light_.hit({x, wi});
   if (!hit || !(hit->pdf_w > 0)) return {wi, 0, {}};

@@ -37,6 +37,8 @@ template <int C> class LightTechnique {
   template <Scatterer<C> S> IncomingLight towards(const LightPoint& point, Vec3 x, const S& scatterer) const;
 
  private:
+  template <Scatterer<C> S>
+  IncomingLight by_point(const LightPoint& point, Vec3 x, const S& scatterer, float share, bool combined) const;
   float chance_share(Vec3 x, float peak) const;
   void hide(IncomingLight& in, Vec3 x) const;
 

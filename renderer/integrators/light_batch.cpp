@@ -30,7 +30,7 @@ LightBatch<C>::LightBatch(const MarchRecord<C>& record, const Ray& ray, Color be
       shadows_(shadows),
       density_(record, PlaceInSegment::LookedUp),
       samples_(context.arena.alloc_span<Sample>(kCapacity).data()),
-      points_(context.arena.alloc_span<RayPoint<C>>(kCapacity).data()),
+      points_(context.arena.alloc_span<SampledPoint<C>>(kCapacity).data()),
       incoming_(context.arena.alloc_span<IncomingLight>(kCapacity).data()) {}
 
 template <int C>
@@ -50,14 +50,6 @@ void LightBatch<C>::add(const Technique& technique, float drawn, Vec2 u_point, c
 }
 
 template <int C>
-void LightBatch<C>::add_at(const Technique& technique, const SampledPoint<C>& drawn, Vec2 u_point,
-                           const ShadowNumbers& numbers) {
-  if (!(drawn.pdf_t > 0)) return;
-  points_[n_] = drawn.at;
-  add(technique, drawn.pdf_t, u_point, numbers);
-}
-
-template <int C>
 void LightBatch<C>::add_about(const Technique& technique, float u, Vec2 u_point, const ShadowNumbers& numbers) {
   add(technique, u, u_point, numbers);
 }
@@ -73,7 +65,7 @@ template <int C> void LightBatch<C>::place_about(EquiangularLanes& lanes) {
   for (int k = 0; k < n_; ++k) {
     if (samples_[k].technique != DistanceTechnique::Equiangular) continue;
     const int i = find_segment(record_, t[k]);
-    points_[k] = follows(lanes, k, i) ? evaluate(record_, t[k], i) : looked_up_point(record_, i);
+    new (&points_[k].at) RayPoint<C>(follows(lanes, k, i) ? evaluate(record_, t[k], i) : looked_up_point(record_, i));
   }
 }
 
@@ -81,13 +73,14 @@ template <int C> bool LightBatch<C>::look_at_light(int k, EquiangularLanes& lane
   const ArenaScope scope(context_.arena);
   const Scene& scene = context_.scene;
   Sample& s = samples_[k];
-  RayPoint<C>& at = points_[k];
+  RayPoint<C>& at = points_[k].at;
+  IncomingLight& in = incoming_[k];  // made there, as in add()
   const Vec3 x = ray_.at(at.t);
   const LightTechnique<C> technique(s.light, context_, bounce_, s.numbers.index);
   const auto phase = [&] { return PhaseMixture<C>(scene, ray_.direction, record_, at.segment, context_.arena); };
   if (s.technique != DistanceTechnique::Equiangular) {
-    incoming_[k] = technique.draw(s.point, x, phase());
-    if (!incoming_[k].by_chance || !s.combined) return false;
+    new (&in) IncomingLight(technique.draw(s.point, x, phase()));
+    if (!in.by_chance || !s.combined) return false;
     lanes.aim(k, s.point.position, lit_part(record_, ray_, s.light, s.point));
     return true;
   }
@@ -96,9 +89,9 @@ template <int C> bool LightBatch<C>::look_at_light(int k, EquiangularLanes& lane
     const Collision<C> there =
         collision_at<C>(scene.media, ray_, at.t, scene.render.time, context_.arena, context_.statistics.march);
     at.sigma_s = there.sigma_s;
-    incoming_[k] = technique.towards(s.point, x, PhaseMixture<C>(scene, ray_.direction, there.densities));
+    new (&in) IncomingLight(technique.towards(s.point, x, PhaseMixture<C>(scene, ray_.direction, there.densities)));
   } else {
-    incoming_[k] = technique.towards(s.point, x, phase());
+    new (&in) IncomingLight(technique.towards(s.point, x, phase()));
   }
   return false;
 }
@@ -106,7 +99,7 @@ template <int C> bool LightBatch<C>::look_at_light(int k, EquiangularLanes& lane
 template <int C> void LightBatch<C>::weigh(const EquiangularLanes& lanes) {
   alignas(64) float begin[kCapacity], end[kCapacity], equiangular[kCapacity];
   for (int k = 0; k < lanes.size(); ++k) {
-    const RayPoint<C>& at = points_[k];
+    const RayPoint<C>& at = points_[k].at;
     const Interval part = follows(lanes, k, at.segment) ? Interval{at.t, at.t} : record_.segment(at.segment);
     begin[k] = part.begin, end[k] = part.end;
   }
@@ -123,7 +116,7 @@ template <int C> void LightBatch<C>::weigh(const EquiangularLanes& lanes) {
     float weight = 1;
     if (s.combined) {
       const float ratio = incoming_[k].pdf_ratio;
-      weight = about ? mis_weight(heuristic, pdf, density_.pdf(points_[k]) * ratio)
+      weight = about ? mis_weight(heuristic, pdf, density_.pdf(points_[k].at) * ratio)
                      : mis_weight(heuristic, pdf * ratio, equiangular[k]);
     }
     s.factor *= weight / pdf;
@@ -132,7 +125,7 @@ template <int C> void LightBatch<C>::weigh(const EquiangularLanes& lanes) {
 
 template <int C> void LightBatch<C>::hand_over(int k) {
   const Sample& s = samples_[k];
-  const RayPoint<C>& at = points_[k];
+  const RayPoint<C>& at = points_[k].at;
   const IncomingLight& in = incoming_[k];
   Color carried = beta_ * in.scattered * s.factor;
   for (int c = 0; c < 3; ++c) {

@@ -34,8 +34,13 @@ template <int C> class LightBatch {
     bool combined;  ///< with the other one of MIS, which might have drawn the same distance and direction
   };
 
-  /// A sample at a place that was drawn without regard to the point.  @param u_point  of the light
-  void add_at(const Technique& technique, const SampledPoint<C>& drawn, Vec2 u_point, const ShadowNumbers& numbers);
+  /// A sample at a place that is drawn without regard to the point.  @param places  DensitySampling or ProductSampling
+  /// @param u  of the place.  @param u_point  of the light
+  template <class Places>
+  void add_at(const Technique& technique, const Places& places, float u, Vec2 u_point, const ShadowNumbers& numbers) {
+    const SampledPoint<C>& drawn = *new (&points_[n_]) SampledPoint<C>(places.sample(u));
+    if (drawn.pdf_t > 0) add(technique, drawn.pdf_t, u_point, numbers);
+  }
 
   /// A sample whose distance is drawn about its point by equi-angular sampling: about that very point the segment is
   /// chosen, and the distance, too, where the segment is homogeneous or so near to the point that 1/r^2 varies in it,
@@ -70,7 +75,7 @@ template <int C> class LightBatch {
   MarchedShadows<C>& shadows_;
   DensitySampling<C> density_;
   Sample* samples_;          // [kCapacity], like the others
-  RayPoint<C>* points_;      // where they are
+  SampledPoint<C>* points_;  // where they are
   IncomingLight* incoming_;  // what arrives there
   int n_ = 0;
 };

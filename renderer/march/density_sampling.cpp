@@ -26,13 +26,16 @@ DrawnSegment draw_segment(const float* cdf, int n, float u) {
 
 template <int C> SampledPoint<C> DensitySampling<C>::sample(float u) const {
   const DrawnSegment drawn = draw_segment(record_.cdf, record_.n, u);
-  const RayPoint<C> at = place_in(drawn.segment, drawn.rest);
-  return {at, pdf(at)};
+  SampledPoint<C> sample{place_in(drawn.segment, drawn.rest), 0};
+  sample.pdf_t = pdf(sample.at);
+  return sample;
 }
 
-template <int C> SampledPoint<C> DensitySampling<C>::sample_in(int segment, float v, float p) const {
-  const RayPoint<C> at = place_in(segment, v);
-  return {at, is_drawn(segment) ? scattered_at(at) / p : 1 / record_.segment(segment).length()};
+template <int C> SampledPoint<C> DensitySampling<C>::sample_in(int segment, float v, float p, float probability) const {
+  SampledPoint<C> sample{place_in(segment, v), 0};
+  sample.pdf_t =
+      probability * (is_drawn(segment) ? scattered_at(sample.at) / p : 1 / record_.segment(segment).length());
+  return sample;
 }
 
 template <int C> RayPoint<C> DensitySampling<C>::place_in(int segment, float v) const {

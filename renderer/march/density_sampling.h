@@ -40,9 +40,9 @@ template <int C> class DensitySampling {
   /// Segment by binary search in the CDF, then the place in it.  @param u in [0,1)
   SampledPoint<C> sample(float u) const;
 
-  /// The same inside a segment that scatters, with the density given that segment.  @param v  in [0, 1]
-  /// @param p  P_i of the segment
-  SampledPoint<C> sample_in(int segment, float v, float p) const;
+  /// The same inside a segment that scatters and was drawn by other means.  @param v  in [0, 1]
+  /// @param p  P_i of the segment.  @param probability  with which it was drawn
+  SampledPoint<C> sample_in(int segment, float v, float p, float probability) const;
 
   /// Of any point of the ray, per world unit.
   float pdf(const RayPoint<C>& point) const;

@@ -73,14 +73,10 @@ template <int C> SampledPoint<C> ProductSampling<C>::sample(float u) const {
   const DrawnSegment drawn = draw_segment(cdf_, record_.n, u);
   const int i = drawn.segment;
   const float share = probability(i);
-  if (is_near(i)) {
-    const Interval part = intersect(record_.segment(i), lit_);
-    const DistanceSample s = EquiangularDistribution(foot_, part).sample(drawn.rest);
-    return {evaluate(record_, s.t, i), share * s.pdf_t};
-  }
-  SampledPoint<C> sample = density_.sample_in(i, drawn.rest, p_[i]);
-  sample.pdf_t *= share;
-  return sample;
+  if (!is_near(i)) return density_.sample_in(i, drawn.rest, p_[i], share);
+  const Interval part = intersect(record_.segment(i), lit_);
+  const DistanceSample s = EquiangularDistribution(foot_, part).sample(drawn.rest);
+  return {evaluate(record_, s.t, i), share * s.pdf_t};
 }
 
 template class ProductSampling<1>;

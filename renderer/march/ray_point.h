@@ -26,7 +26,8 @@ template <int C> RayPoint<C> evaluate(const MarchRecord<C>& record, float t) {
 /// The place where a segment was looked up.
 template <int C> RayPoint<C> looked_up_point(const MarchRecord<C>& record, int segment);
 
-/// A point and the density it was drawn with.
+/// A point and the density it was drawn with. Functions that draw make it where it is to stay: a copy of what has just
+/// been written in pieces waits until they are in the cache.
 template <int C> struct SampledPoint {
   RayPoint<C> at;
   float pdf_t;  ///< per world unit
