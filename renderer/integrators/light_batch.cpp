@@ -15,7 +15,7 @@ template <int C> struct LightBatch<C>::Sample {
   DistanceTechnique technique;
   float factor;  // becomes what multiplies the integrand: the weight over the density
   bool combined;
-  float drawn;   // pdf of the place, per world unit; of equi-angular sampling the number that will draw it
+  float u;       // number that will draw the distance by equi-angular sampling
   Interval lit;  // the part of the ray that the point can reach, where a density about it counts
 };
 
@@ -34,7 +34,7 @@ LightBatch<C>::LightBatch(const MarchRecord<C>& record, const Ray& ray, Color be
       incoming_(context.arena.alloc_span<IncomingLight>(kCapacity).data()) {}
 
 template <int C>
-void LightBatch<C>::add(const Technique& technique, float drawn, Vec2 u_point, const ShadowNumbers& numbers) {
+void LightBatch<C>::add(const Technique& technique, float u, Vec2 u_point, const ShadowNumbers& numbers) {
   // Made where it stays: a copy would wait for what has just been written.
   Sample& s = *new (&samples_[n_]) Sample{technique.light,
                                           technique.light.sample_point(u_point),
@@ -42,7 +42,7 @@ void LightBatch<C>::add(const Technique& technique, float drawn, Vec2 u_point, c
                                           technique.distance,
                                           technique.factor,
                                           technique.combined,
-                                          drawn,
+                                          u,
                                           {}};
   if (s.is_about()) s.lit = lit_part(record_, ray_, s.light, s.point);
   if (s.technique == DistanceTechnique::Equiangular && s.lit.empty()) return;
@@ -57,7 +57,7 @@ void LightBatch<C>::add_about(const Technique& technique, float u, Vec2 u_point,
 template <int C> void LightBatch<C>::place_about(EquiangularLanes& lanes) {
   alignas(64) float u[kCapacity], t[kCapacity];
   for (int k = 0; k < n_; ++k) {
-    u[k] = samples_[k].drawn;
+    u[k] = samples_[k].u;
     lanes.aim(k, samples_[k].point.position, samples_[k].lit);
   }
   lanes.measure(ray_);
@@ -108,7 +108,7 @@ template <int C> void LightBatch<C>::weigh(const EquiangularLanes& lanes) {
   for (int k = 0; k < n_; ++k) {
     Sample& s = samples_[k];
     const bool about = s.technique == DistanceTechnique::Equiangular;
-    const float pdf = about ? equiangular[k] : s.drawn;
+    const float pdf = about ? equiangular[k] : points_[k].pdf_t;
     if (!(pdf > 0)) {  // on the border of the lit part: of no use
       s.factor = 0;
       continue;

@@ -39,7 +39,7 @@ template <int C> class LightBatch {
   template <class Places>
   void add_at(const Technique& technique, const Places& places, float u, Vec2 u_point, const ShadowNumbers& numbers) {
     const SampledPoint<C>& drawn = *new (&points_[n_]) SampledPoint<C>(places.sample(u));
-    if (drawn.pdf_t > 0) add(technique, drawn.pdf_t, u_point, numbers);
+    if (drawn.pdf_t > 0) add(technique, 0, u_point, numbers);
   }
 
   /// A sample whose distance is drawn about its point by equi-angular sampling: about that very point the segment is
@@ -56,7 +56,7 @@ template <int C> class LightBatch {
   static constexpr int kCapacity = 16;
   struct Sample;
 
-  void add(const Technique& technique, float drawn, Vec2 u_point, const ShadowNumbers& numbers);
+  void add(const Technique& technique, float u, Vec2 u_point, const ShadowNumbers& numbers);
   void place_about(EquiangularLanes& lanes);
   /// @return whether it was met by chance, in another point, at which the lane is aimed now
   bool look_at_light(int k, EquiangularLanes& lanes);
@@ -75,7 +75,7 @@ template <int C> class LightBatch {
   MarchedShadows<C>& shadows_;
   DensitySampling<C> density_;
   Sample* samples_;          // [kCapacity], like the others
-  SampledPoint<C>* points_;  // where they are
+  SampledPoint<C>* points_;  // where they are; equi-angular densities are found for all together
   IncomingLight* incoming_;  // what arrives there
   int n_ = 0;
 };

@@ -19,14 +19,9 @@ template <int C>
 ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const float* p, const Ray& ray,
                                     const LightPivot& pivot, Interval lit, const PhaseFunction* phase, Arena& arena)
     : record_(record), p_(p), density_(record, PlaceInSegment::LookedUp), lit_(lit) {
-  const Vec3d to_pivot = Vec3d(pivot.position) - Vec3d(ray.origin), direction(ray.direction);
-  const auto foot = static_cast<float>(dot(to_pivot, direction));
-  const double off2 = length_squared(to_pivot - direction * static_cast<double>(foot));
-  const auto off_ray = static_cast<float>(std::sqrt(off2)), radius = pivot.radius;
-  // As for equi-angular sampling, a pivot on the ray is taken as if it were next to it.
-  const float reach = std::max(std::abs(record.t[0] - foot), std::abs(record.t[record.n] - foot));
-  const float distance = std::max(static_cast<float>(std::sqrt(off2 + double(radius) * double(radius))),
-                                  static_cast<float>(kLeastPivotDistance) * reach);
+  const PivotFoot seen = foot_of(ray, pivot.position, record.span());
+  const auto foot = static_cast<float>(seen.t), off_ray = static_cast<float>(seen.distance);
+  const float distance = std::hypot(off_ray, pivot.radius);
   foot_ = {foot, distance};
 
   const auto n = static_cast<std::size_t>(record.n);
