@@ -15,7 +15,8 @@ constexpr double kFirstLookSeconds = 0.033;  // the coarse first pictures after 
 constexpr double kTurnSeconds = 0.1;         // of one job among several
 constexpr int kMaxDivisor = 32;
 // Where a pass draws more light samples of each light, a preview of the full resolution comes before the first one. It
-// is soon there, and with so many samples the first pass would be late.
+// is soon there, and with so many samples the first pass would be late. Not of one job among several: their turns are
+// short, and their pictures small.
 constexpr int kFewLightSamples = 4;
 constexpr double kGuessedSecondsPerRay = 20e-6;                        // before anything was measured: on the safe side
 constexpr auto kLeastPublishInterval = std::chrono::milliseconds(15);  // no display shows more pictures than that
@@ -203,7 +204,7 @@ double Engine::render_next_preview(Progress& job, std::size_t jobs) {
   const double rays = pixels / (job.preview * job.preview);
   job.shown = true;
   job.preview /= 2;
-  if (job.preview == 1 && job.job.scene->light_samples <= kFewLightSamples) job.preview = 0;
+  if (job.preview == 1 && (jobs > 1 || job.job.scene->light_samples <= kFewLightSamples)) job.preview = 0;
   return rays;
 }
 

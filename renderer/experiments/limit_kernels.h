@@ -19,7 +19,7 @@ LimitCycles limit_cycles(const std::string& simd_level);
 bool is_processor_of_limit_cycles();
 
 /// Trilinear samples at first + k * step, k in [0, n), in index space, all of them inside the table and not on its
-/// upper faces. Writes up to 64 values.
+/// upper faces. Writes up to the next multiple of 128 values.
 /// @param grid  in Quad layout
 void limit_lookup(const BrickGrid& grid, Vec3 first, Vec3 step, int n, float* out);
 

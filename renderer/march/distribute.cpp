@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/march/step_loops.h"
-
 namespace brume {
 
 template <int C> void distribute(MarchRecord<C>& rec, Color throughput, Arena& arena) {

@@ -24,7 +24,8 @@ template <int C> const float* scattered_by_segment(const MarchRecord<C>& record,
 /// The part of P_i of one channel.
 template <int C> float scattered_in(const MarchRecord<C>& record, int segment, int channel);
 
-/// Radiance that the medium itself sends towards the start of the record: the sum of emission_i * length_i.
+/// Radiance that the medium itself sends towards the start of the record: the sum of emission_i times the integral of
+/// the transmittance over segment i.
 template <int C> Color emitted_radiance(const MarchRecord<C>& record);
 
 /// Transmittance of the whole record; 1 when it is empty.

@@ -125,6 +125,44 @@ TEST(MarchRecord, CoefficientsOfOverlappingMediaAddAndGapsAreEmpty) {
     }
 }
 
+/// From z = 0 to 1 and from 2 to 3, for rays along z.
+class TwoSlabs final : public Shape {
+ public:
+  std::span<const Interval> intervals(const Ray& ray, Arena& arena) const override {
+    const auto out = arena.alloc_span<Interval>(2);
+    for (std::size_t k = 0; k < 2; ++k)
+      out[k] = {2 * static_cast<float>(k) - ray.origin.z, 2 * static_cast<float>(k) + 1 - ray.origin.z};
+    return out;
+  }
+  Bounds3 bounds() const override { return {{-1, -1, 0}, {1, 1, 3}}; }
+};
+
+// All its coefficients are multiples of the density that is recorded, in the gap, too, where it is 0.
+TEST(MarchRecord, TheOnlyMediumOfARayMayHaveAGap) {
+  const auto witness = std::make_shared<WitnessShader>();
+  const Medium marched = medium_of(witness, std::make_shared<TwoSlabs>(), {1, 2, 3}, {2, 2, 4}, {5, 6, 7});
+  const Medium beside = homogeneous_box({5, 5, 5}, {6, 6, 6}, Color(1), Color(1));
+  RecordedRay<3> r({beside, marched}, ray_along_z(-1), 0.3f, 0.5f);
+  ASSERT_EQ(r->n, 4 + 1 + 4);
+  EXPECT_TRUE(r->has_one_albedo());
+  ASSERT_EQ(witness->asked.size(), 8u);
+  for (int i = 0; i < r->n; ++i) {
+    const bool in_gap = i == 4;
+    EXPECT_EQ(r->is_homogeneous(i), in_gap) << i;
+    EXPECT_EQ(r->is_clear(i), in_gap) << i;
+    const float density = in_gap ? 0 : witness->asked[static_cast<std::size_t>(i < 4 ? i : i - 1)].z;
+    EXPECT_EQ(r->medium_density[0][i], 0) << i;
+    EXPECT_EQ(r->medium_density[1][i], density) << i;
+    for (int c = 0; c < 3; ++c) {
+      const auto k = static_cast<std::size_t>(c);
+      EXPECT_EQ(r->sigma_t[k][i], marched.sigma_t[c] * density) << i;
+      EXPECT_EQ(r->sigma_s[k][i], marched.sigma_s[c] * density) << i;
+      EXPECT_EQ(r->emission[c][i], marched.emission[c] * density) << i;
+    }
+  }
+  EXPECT_EQ(r->cdf[4], r->cdf[5]) << "something was to be drawn in the gap";
+}
+
 TEST(MarchRecord, MarchedAndHomogeneousMediaMayOverlap) {
   std::vector<Medium> media{homogeneous_box({-1, -1, 0}, {1, 1, 4}, Color(1), Color(1)),
                             profile_box([](float z) { return z; }, {-1, -1, 1}, {1, 1, 3}, Color(2), Color(2))};
