@@ -82,9 +82,7 @@ template <int C> struct LightSampling {
       const bool from_everywhere = kind == LightPoint::Kind::Environment;
       const DensitySampling<C> places(record, from_everywhere ? PlaceInSegment::Drawn : PlaceInSegment::LookedUp);
       const auto u = numbers.distances(Decision::DensityDistance);
-      for (int k = 0; k < of_density; ++k)
-        batch.add_at({light, DistanceTechnique::Density, share, combined}, places, u(k, of_density), numbers.point(k),
-                     numbers.of_shadow(k));
+      batch.add_at({light, DistanceTechnique::Density, share, combined}, places, numbers, u, of_density);
     }
     const int about_light = samples - of_density;
     if (about_light > 0) {
@@ -103,9 +101,8 @@ template <int C> struct LightSampling {
     if (!(product.total() > 0)) return;
     const int samples = numbers.count();
     const auto u = numbers.distances(Decision::DensityDistance);
-    for (int k = 0; k < samples; ++k)
-      batch.add_at({light, DistanceTechnique::Product, weight / static_cast<float>(samples), false}, product,
-                   u(k, samples), numbers.point(k), numbers.of_shadow(k));
+    batch.add_at({light, DistanceTechnique::Product, weight / static_cast<float>(samples), false}, product, numbers, u,
+                 samples);
   }
 };
 

@@ -1,6 +1,7 @@
 #include "renderer/integrators/light_batch.h"
 
 #include "renderer/march/mis.h"
+#include "renderer/march/product_sampling.h"
 #include "renderer/march/tracking.h"
 
 namespace brume {
@@ -47,6 +48,24 @@ void LightBatch<C>::add(const Technique& technique, float u, Vec2 u_point, const
   if (s.is_about()) s.lit = lit_part(record_, ray_, s.light, s.point);
   if (s.technique == DistanceTechnique::Equiangular && s.lit.empty()) return;
   if (++n_ == kCapacity) finish();
+}
+
+template <int C>
+template <class Places>
+void LightBatch<C>::add_at(const Technique& technique, const Places& places, const LightNumbers& numbers,
+                           const LightNumbers::Distances& u, int count) {
+  DrawnSegment drawn[kCapacity];
+  for (int begin = 0; begin < count;) {
+    const int first = n_, group = std::min(count - begin, kCapacity - n_);
+    for (int j = 0; j < group; ++j) drawn[j] = places.draw(u(begin + j, count));
+    for (int j = 0; j < group; ++j) new (&points_[first + j]) SampledPoint<C>(places.place(drawn[j]));
+    for (int j = 0; j < group; ++j) {
+      if (!(points_[first + j].pdf_t > 0)) continue;
+      if (n_ < first + j) points_[n_] = points_[first + j];
+      add(technique, 0, numbers.point(begin + j), numbers.of_shadow(begin + j));
+    }
+    begin += group;
+  }
 }
 
 template <int C>
@@ -154,5 +173,13 @@ template <int C> void LightBatch<C>::finish() {
 
 template class LightBatch<1>;
 template class LightBatch<3>;
+template void LightBatch<1>::add_at(const Technique&, const DensitySampling<1>&, const LightNumbers&,
+                                    const LightNumbers::Distances&, int);
+template void LightBatch<3>::add_at(const Technique&, const DensitySampling<3>&, const LightNumbers&,
+                                    const LightNumbers::Distances&, int);
+template void LightBatch<1>::add_at(const Technique&, const ProductSampling<1>&, const LightNumbers&,
+                                    const LightNumbers::Distances&, int);
+template void LightBatch<3>::add_at(const Technique&, const ProductSampling<3>&, const LightNumbers&,
+                                    const LightNumbers::Distances&, int);
 
 }  // namespace brume

@@ -34,13 +34,11 @@ template <int C> class LightBatch {
     bool combined;  ///< with the other one of MIS, which might have drawn the same distance and direction
   };
 
-  /// A sample at a place that is drawn without regard to the point.  @param places  DensitySampling or ProductSampling
-  /// @param u  of the place.  @param u_point  of the light
+  /// The first samples of a light, at places that are drawn without regard to its points.
+  /// @param places  DensitySampling or ProductSampling.  @param u  of the places.  @param count  of the samples
   template <class Places>
-  void add_at(const Technique& technique, const Places& places, float u, Vec2 u_point, const ShadowNumbers& numbers) {
-    const SampledPoint<C>& drawn = *new (&points_[n_]) SampledPoint<C>(places.sample(u));
-    if (drawn.pdf_t > 0) add(technique, 0, u_point, numbers);
-  }
+  void add_at(const Technique& technique, const Places& places, const LightNumbers& numbers,
+              const LightNumbers::Distances& u, int count);
 
   /// A sample whose distance is drawn about its point by equi-angular sampling: about that very point the segment is
   /// chosen, and the distance, too, where the segment is homogeneous or so near to the point that 1/r^2 varies in it,

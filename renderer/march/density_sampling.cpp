@@ -24,8 +24,7 @@ DrawnSegment draw_segment(const float* cdf, int n, float u) {
   return {i, std::clamp((target - cdf[i]) / (cdf[i + 1] - cdf[i]), 0.0f, 1.0f)};
 }
 
-template <int C> SampledPoint<C> DensitySampling<C>::sample(float u) const {
-  const DrawnSegment drawn = draw_segment(record_.cdf, record_.n, u);
+template <int C> SampledPoint<C> DensitySampling<C>::place(DrawnSegment drawn) const {
   SampledPoint<C> sample{place_in(drawn.segment, drawn.rest), 0};
   sample.pdf_t = pdf(sample.at);
   return sample;

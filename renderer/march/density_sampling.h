@@ -38,7 +38,11 @@ template <int C> class DensitySampling {
   DensitySampling(const MarchRecord<C>& record, PlaceInSegment place) : record_(record), place_(place) {}
 
   /// Segment by binary search in the CDF, then the place in it.  @param u in [0,1)
-  SampledPoint<C> sample(float u) const;
+  SampledPoint<C> sample(float u) const { return place(draw(u)); }
+
+  /// The same in two steps: who draws many makes each step for all of them.
+  DrawnSegment draw(float u) const { return draw_segment(record_.cdf, record_.n, u); }
+  SampledPoint<C> place(DrawnSegment drawn) const;
 
   /// The same inside a segment that scatters and was drawn by other means.  @param v  in [0, 1]
   /// @param p  P_i of the segment.  @param probability  with which it was drawn

@@ -64,8 +64,7 @@ ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const float* p
 
 template <int C> float ProductSampling<C>::total() const { return cdf_[record_.n] / (1 + kDefensive); }
 
-template <int C> SampledPoint<C> ProductSampling<C>::sample(float u) const {
-  const DrawnSegment drawn = draw_segment(cdf_, record_.n, u);
+template <int C> SampledPoint<C> ProductSampling<C>::place(DrawnSegment drawn) const {
   const int i = drawn.segment;
   const float share = probability(i);
   if (!is_near(i)) return density_.sample_in(i, drawn.rest, p_[i], share);

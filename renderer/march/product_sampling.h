@@ -28,7 +28,11 @@ template <int C> class ProductSampling {
   float total() const;
 
   /// Needs total() > 0.  @param u  in [0,1)
-  SampledPoint<C> sample(float u) const;
+  SampledPoint<C> sample(float u) const { return place(draw(u)); }
+
+  /// The same in two steps, as DensitySampling.
+  DrawnSegment draw(float u) const { return draw_segment(cdf_, record_.n, u); }
+  SampledPoint<C> place(DrawnSegment drawn) const;
 
   /// Of a segment.
   float probability(int segment) const { return (cdf_[segment + 1] - cdf_[segment]) / cdf_[record_.n]; }
