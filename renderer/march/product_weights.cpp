@@ -6,7 +6,7 @@
 
 #include <hwy/highway.h>
 
-#include "renderer/march/step_loops.h"
+#include "renderer/core/simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace brume::HWY_NAMESPACE {

@@ -15,7 +15,7 @@ struct ProductTerms {
 };
 
 /// cosine[i] between the ray's direction and that of light that comes from the pivot to edge i, for i in [0, n].
-/// @param t  [n + 1]; arrays as in step_loops.h
+/// @param t  [n + 1], readable for another vector behind the end; arrays are those of an Arena
 void light_cosines(const float* t, int n, const ProductTerms& terms, float* cosine);
 
 /// weight[i] = p[i] / (distance^2 + s^2) * (phase[i] + phase[i + 1]) / 2 * (cosine at the light), s and the cosine

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "renderer/march/step_loops.h"
-
 namespace brume {
 namespace {
 

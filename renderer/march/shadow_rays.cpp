@@ -6,8 +6,6 @@
 
 #include <hwy/highway.h>
 
-#include "renderer/march/step_loops.h"
-
 HWY_BEFORE_NAMESPACE();
 namespace brume::HWY_NAMESPACE {
 namespace {

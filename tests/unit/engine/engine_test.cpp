@@ -123,7 +123,7 @@ TEST(RenderPass, ACancelledPassSaysSoAndStopsWithinARowOfEveryThread) {
   EXPECT_TRUE(render_pass(*scene, *integrator, 0, film, pool, [] { return false; }));
 }
 
-TEST(RenderCoarse, IsTheSameViewWithFewerPixels) {
+TEST(RenderPreview, IsTheSameViewWithFewerPixels) {
   const auto scene = scene_of(1);
   const auto integrator = make_integrator(*scene);
   WorkerPool pool(2);
