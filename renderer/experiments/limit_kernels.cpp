@@ -69,7 +69,7 @@ void Lookup(const BrickGrid& grid, Vec3 first, Vec3 step, int n, float* out) {
   const D d;
   const DI di;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  const std::int32_t* const table = grid.table();
+  const std::uint32_t* const table = grid.table();
   const std::byte* const data = grid.values().data();
   first = first - Vec3(grid.table_origin());
   const V scale = hn::Set(d, grid.values().unit() * 0x1p112f);
@@ -105,8 +105,8 @@ void Lookup(const BrickGrid& grid, Vec3 first, Vec3 step, int n, float* out) {
       HWY_UNROLL(16)
       for (int j = 0; j < 16; ++j)
         std::memcpy(s->voxels + 4 * (k + place_of(j)),
-                    data + static_cast<std::size_t>(table[s->slot[k + j]]) * bytes_per_brick(BrickLayout::Quad) +
-                        static_cast<std::size_t>(s->corner[k + j]) * 8,
+                    data + std::size_t{table[s->slot[k + j]] + static_cast<std::uint32_t>(s->corner[k + j])} *
+                               bytes_per_element(BrickLayout::Quad),
                     16);
     }
     pass_through_memory(s);

@@ -107,7 +107,8 @@ struct TilesOverlap {};
 }  // namespace
 
 /// Builds one BrickGrid. The table is filled with what lies in each 8^3 block ("content"), then turned in place into
-/// brick numbers, noting for every brick that needs storage the eight contents it is put together from.
+/// brick numbers, noting for every brick that needs storage the eight contents it is put together from, and at last
+/// into the places of the bricks' values.
 class BrickBuilder {
  public:
   BrickBuilder(VoxelBlocks blocks, const LoadOptions& options) : blocks_(std::move(blocks)), options_(options) {}
@@ -121,6 +122,7 @@ class BrickBuilder {
     if (auto enough = check_memory(blocks_.leaves.size() * sizeof(LeafBlock) + grid_.table_.size() * 4 + value_bytes());
         !enough)
       return enough.error();
+    if (auto enough = place_bricks(); !enough) return enough.error();
     if (!fill_values()) return loading_cancelled();
     return std::move(grid_);
   }
@@ -128,6 +130,7 @@ class BrickBuilder {
  private:
   /// Content of a place: 0 nothing, i+1 leaf i, -(k+1) all voxels have the value constants_[k].
   using Content = std::int32_t;
+  Content* contents() { return reinterpret_cast<Content*>(grid_.table_.data()); }  // before it holds what it is for
   struct Stored {
     Content parts[8];  // part d: the block that lies one further along the axes in d (4: x, 2: y, 1: z)
   };
@@ -260,14 +263,14 @@ class BrickBuilder {
     grid_.table_.assign(static_cast<std::size_t>(1 + extent_.x * extent_.y * extent_.z), 0);
     for (const TileBlock& tile : blocks_.tiles) {
       const Content content = constant(tile.value);
-      for_bricks(tile, [&](Index64, std::size_t at) { grid_.table_[at] = content; });
+      for_bricks(tile, [&](Index64, std::size_t at) { contents()[at] = content; });
     }
     for (std::size_t i = 0; i < blocks_.leaves.size(); ++i) {
       const LeafBlock& leaf = blocks_.leaves[i];
       const VoxelIndex o = leaf.origin;
       const auto at = element({floor_to_brick(o.x), floor_to_brick(o.y), floor_to_brick(o.z)});
       if (!at) continue;  // a leaf without active voxels, outside the active box
-      grid_.table_[*at] = summaries_[i].constant ? constant(leaf.values[0]) : static_cast<Content>(i + 1);
+      contents()[*at] = summaries_[i].constant ? constant(leaf.values[0]) : static_cast<Content>(i + 1);
     }
   }
 
@@ -283,9 +286,9 @@ class BrickBuilder {
     std::vector<Content> any(static_cast<std::size_t>(extent_.z + 1), 0);  // bits of all contents at z in four rows
     const auto row_at = [&](std::int64_t x, std::int64_t y) {
       if (x == extent_.x || y == extent_.y) return beyond.data();
-      return static_cast<const Content*>(grid_.table_.data()) + 1 + (x * extent_.y + y) * extent_.z;
+      return static_cast<const Content*>(contents()) + 1 + (x * extent_.y + y) * extent_.z;
     };
-    Content* row = grid_.table_.data() + 1;
+    Content* row = contents() + 1;
     for (std::int64_t x = 0; x < extent_.x; ++x)
       for (std::int64_t y = 0; y < extent_.y; ++y, row += extent_.z) {
         if (options_.cancel.stop_requested()) return;
@@ -317,6 +320,15 @@ class BrickBuilder {
     }
     stored_.push_back(stored);
     return next;
+  }
+
+  Result<void> place_bricks() {
+    const std::size_t elements = elements_per_brick(layout()), most = (std::size_t{1} << 32) / elements;
+    if (stored_.size() >= most)
+      return bad_input("the grid needs " + std::to_string(stored_.size() + 1) + " bricks of 8^3 voxels, expected " +
+                       std::to_string(most) + " at most; crop it or halve its resolution");
+    for (std::uint32_t& entry : grid_.table_) entry *= static_cast<std::uint32_t>(elements);
+    return {};
   }
 
   std::uint64_t value_bytes() const { return (stored_.size() + 1) * bytes_per_brick(layout()); }

@@ -5,7 +5,7 @@
 
 namespace brume {
 
-std::size_t BrickGrid::memory_bytes() const { return table_.size() * sizeof(std::int32_t) + values_.bytes(); }
+std::size_t BrickGrid::memory_bytes() const { return table_.size() * sizeof(std::uint32_t) + values_.bytes(); }
 
 float BrickGrid::max_value(const Bounds3& box) const {
   std::int64_t first[3], last[3];
@@ -23,7 +23,7 @@ float BrickGrid::max_value(const Bounds3& box) const {
     for (std::int64_t y = first[1]; y <= last[1]; ++y)
       for (std::int64_t z = first[2]; z <= last[2]; ++z) {
         const std::int64_t at = 1 + (x * table_extent_.y + y) * table_extent_.z + z;
-        largest = std::max(largest, brick_max_[static_cast<std::size_t>(table_[static_cast<std::size_t>(at)])]);
+        largest = std::max(largest, brick_max_[brick_at(at)]);
       }
   return largest;
 }
@@ -38,8 +38,7 @@ float BrickGrid::voxel(VoxelIndex index) const {
     if (place[axis] < 0 || place[axis] >= table_extent_[axis]) return 0;
   }
   const std::int64_t at = 1 + (place[0] * table_extent_.y + place[1]) * table_extent_.z + place[2];
-  const std::int64_t brick = table_[static_cast<std::size_t>(at)];
-  return values_.voxel(static_cast<std::size_t>(brick), local[0], local[1], local[2]);
+  return values_.voxel(brick_at(at), local[0], local[1], local[2]);
 }
 
 }  // namespace brume

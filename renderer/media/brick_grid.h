@@ -44,8 +44,8 @@ struct VoxelBlocks {
 };
 
 /// Bricks of 8^3 cells. Cell i lies between voxels i and i+1, and a brick stores the 9^3 voxels at all corners of its
-/// cells, so that a look-up touches one brick only. A dense table over the active region maps a brick's place to its
-/// number; empty bricks share number 0, and equal constant bricks share one.
+/// cells, so that a look-up touches one brick only. A dense table over the active region maps a brick's place to where
+/// its values begin; empty bricks share the first one, brick 0, and equal constant bricks share one.
 ///
 /// Values are finite and >= 0: others were replaced by 0 and counted. Immutable; any thread.
 class BrickGrid {
@@ -59,9 +59,9 @@ class BrickGrid {
   VoxelIndex table_origin() const { return table_origin_; }
   /// Extent of the table in bricks.
   VoxelIndex table_extent() const { return table_extent_; }
-  /// Number of the brick at place (i,j,k) of the table: element 1 + (i * extent.y + j) * extent.z + k.
-  /// Element 0 is brick 0, for places outside.
-  const std::int32_t* table() const { return table_.data(); }
+  /// Of the brick at place (i,j,k) of the table, entry 1 + (i * extent.y + j) * extent.z + k, the first of its elements
+  /// (see bytes_per_element()) among those of all bricks. Entry 0 is brick 0, for places outside.
+  const std::uint32_t* table() const { return table_.data(); }
   const BrickValues& values() const { return values_; }
   int brick_count() const { return brick_count_; }  ///< with brick 0
 
@@ -84,8 +84,12 @@ class BrickGrid {
 
  private:
   friend class BrickBuilder;
+  std::size_t brick_at(std::int64_t entry) const {
+    return table_[static_cast<std::size_t>(entry)] / elements_per_brick(values_.layout());
+  }
+
   VoxelIndex table_origin_, table_extent_, active_min_, active_max_;
-  std::vector<std::int32_t> table_;
+  std::vector<std::uint32_t> table_;
   BrickValues values_;
   std::vector<float> brick_max_;  // [brick_count]
   int brick_count_ = 0;

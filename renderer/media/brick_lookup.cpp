@@ -140,8 +140,8 @@ HWY_INLINE V shifted_half(hn::Vec<DU> bits) { return hn::BitCast(D(), hn::ShiftL
 constexpr float kShiftedHalf = 0x1p112f;
 
 struct FullLayout {
-  static constexpr int kRowStride = 9, kBytes = 4;
-  static constexpr std::size_t kBrickBytes = bytes_per_brick(BrickLayout::Full);
+  static constexpr std::size_t kBytes = bytes_per_element(BrickLayout::Full);
+  static constexpr int kRowStride = 9;
   static float unit(const BrickValues&) { return 1; }
 
   static HWY_INLINE void fetch(const std::byte* corner, int k, std::uint32_t* voxels) {
@@ -165,8 +165,8 @@ struct FullLayout {
 };
 
 struct HalfLayout {
-  static constexpr int kRowStride = 9, kBytes = 2;
-  static constexpr std::size_t kBrickBytes = bytes_per_brick(BrickLayout::Half);
+  static constexpr std::size_t kBytes = bytes_per_element(BrickLayout::Half);
+  static constexpr int kRowStride = 9;
   static float unit(const BrickValues& values) { return values.unit() * kShiftedHalf; }
 
   static HWY_INLINE void fetch(const std::byte* corner, int k, std::uint32_t* voxels) {
@@ -186,8 +186,8 @@ struct HalfLayout {
 };
 
 struct QuadLayout {
-  static constexpr int kRowStride = 8, kBytes = 8;
-  static constexpr std::size_t kBrickBytes = bytes_per_brick(BrickLayout::Quad);
+  static constexpr std::size_t kBytes = bytes_per_element(BrickLayout::Quad);
+  static constexpr int kRowStride = 8;
   static float unit(const BrickValues& values) { return values.unit() * kShiftedHalf; }
 
   // Of four points in a row each goes to another vector, so that these are turned inside their blocks of 16 bytes only.
@@ -226,16 +226,15 @@ struct QuadLayout {
 
 /// Fetches the corners of one chunk, if any of its bricks has values.
 template <class Layout>
-HWY_INLINE bool fetch(const std::int32_t* table, const std::byte* values, const std::int32_t* slot,
+HWY_INLINE bool fetch(const std::uint32_t* table, const std::byte* values, const std::int32_t* slot,
                       const std::int32_t* corner, std::uint32_t* voxels) {
   int empty = 0;  // a dense chunk leaves this loop at once; one of empty bricks is done after it
   while (empty < kChunk && table[slot[empty]] == 0) ++empty;
   if (empty == kChunk) return false;
   HWY_UNROLL(16)
   for (int k = 0; k < kChunk; ++k)
-    Layout::fetch(values + static_cast<std::size_t>(table[slot[k]]) * Layout::kBrickBytes +
-                      static_cast<std::size_t>(corner[k]) * Layout::kBytes,
-                  k, voxels);
+    Layout::fetch(values + std::size_t{table[slot[k]] + static_cast<std::uint32_t>(corner[k])} * Layout::kBytes, k,
+                  voxels);
   return true;
 }
 
@@ -258,7 +257,7 @@ void lookup_in(const BrickGrid& grid, const Affine& local_from_scene, const Poin
                float* out) {
   alignas(64) Scratch scratch;
   const Addresses addresses(grid, local_from_scene);
-  const std::int32_t* const table = grid.table();
+  const std::uint32_t* const table = grid.table();
   const std::byte* const values = grid.values().data();
   scale *= Layout::unit(grid.values());
 

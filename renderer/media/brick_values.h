@@ -23,6 +23,14 @@ constexpr std::size_t bytes_per_brick(BrickLayout layout) {
   return layout == BrickLayout::Full ? 2944 : layout == BrickLayout::Half ? 1472 : 4608;  // whole cache lines
 }
 
+/// What look-ups count in: a float, a half float, four of them.
+constexpr std::size_t bytes_per_element(BrickLayout layout) {
+  return layout == BrickLayout::Full ? 4 : layout == BrickLayout::Half ? 2 : 8;
+}
+constexpr std::size_t elements_per_brick(BrickLayout layout) {
+  return bytes_per_brick(layout) / bytes_per_element(layout);
+}
+
 /// Bricks of one layout. Half floats hold a value over unit(), a power of two that makes the most of their range:
 /// values that half floats can hold stay exact, others are off by 2^-11 of themselves at most, or by 2^-28 times the
 /// largest.

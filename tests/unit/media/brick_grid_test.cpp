@@ -56,7 +56,7 @@ TEST(BrickGrid, EveryBrickStoresTheFirstVoxelsOfTheNext) {
   for (int bx = 0; bx < extent.x; ++bx)
     for (int by = 0; by < extent.y; ++by)
       for (int bz = 0; bz < extent.z; ++bz, ++slot) {
-        const auto brick = static_cast<std::size_t>(grid.table()[slot]);
+        const std::size_t brick = grid.table()[slot] / elements_per_brick(grid.values().layout());
         for (int e = 0; e < 729; ++e) {
           const VoxelIndex local(e / 81, e / 9 % 9, e % 9);
           ASSERT_EQ(grid.values().voxel(brick, local.x, local.y, local.z),
