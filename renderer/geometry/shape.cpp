@@ -24,10 +24,10 @@ std::span<const Interval> BoxShape::intervals(const Ray& ray, Arena& arena) cons
     const double o = ray.origin[axis], d = ray.direction[axis];
     if (d == 0) {
       // Parallel to the slab: 0 * infinity would be NaN, so the slab is a yes or a no.
-      if (o < low_[axis] || o > high_[axis]) return {};
+      if (o < box_.low[axis] || o > box_.high[axis]) return {};
       continue;
     }
-    const double inverse = 1 / d, t0 = (low_[axis] - o) * inverse, t1 = (high_[axis] - o) * inverse;
+    const double inverse = 1 / d, t0 = (box_.low[axis] - o) * inverse, t1 = (box_.high[axis] - o) * inverse;
     begin = std::max(begin, std::min(t0, t1));
     end = std::min(end, std::max(t0, t1));
   }

@@ -23,19 +23,19 @@ class Shape {
 
   virtual Bounds3 bounds() const = 0;
 
-  /// The shape itself where it is an axis-aligned box, which many rays can be clipped to at once.
-  virtual std::optional<Bounds3> box() const { return std::nullopt; }
+  /// The shape itself where it is an axis-aligned box, which many rays can be clipped to at once; null elsewhere.
+  virtual const Bounds3* box() const { return nullptr; }
 };
 
 class BoxShape final : public Shape {
  public:
-  BoxShape(Vec3d low, Vec3d high) : low_(low), high_(high) {}
+  BoxShape(Vec3d low, Vec3d high) : box_{low, high} {}
   std::span<const Interval> intervals(const Ray& ray, Arena& arena) const override;
-  Bounds3 bounds() const override { return {low_, high_}; }
-  std::optional<Bounds3> box() const override { return bounds(); }
+  Bounds3 bounds() const override { return box_; }
+  const Bounds3* box() const override { return &box_; }
 
  private:
-  Vec3d low_, high_;
+  Bounds3 box_;
 };
 
 class SphereShape final : public Shape {

@@ -90,7 +90,7 @@ void shadow_optical_depths(std::span<const Medium> media, const ShadowRays& rays
     const ArenaScope medium_scope(arena);
     std::fill_n(amounts, n, 0.0);
     Amounts march(medium, rays, step, time, arena, counts, amounts);
-    if (const auto box = medium.shape->box()) {
+    if (const Bounds3* const box = medium.shape->box()) {
       clip_to_box(rays, medium.shape_from_scene, Vec3(box->low), Vec3(box->high), from, to);
       for (int r = 0; r < rays.n; ++r)
         if (const Interval inside{from[r], to[r]}; !inside.empty()) march.add(r, inside);

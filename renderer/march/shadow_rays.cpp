@@ -46,7 +46,7 @@ void ClipToBox(const ShadowRays& rays, const Affine& box_from_scene, Vec3 low, V
 
 void WritePoints(const ShadowRays& rays, std::span<const ShadowRow> rows, float* x, float* y, float* z) {
   const D d;
-  const V iota = hn::Iota(d, 0);
+  const V iota = hn::Iota(d, 0), each = hn::Set(d, static_cast<float>(lanes()));
   for (const ShadowRow& row : rows) {
     const Ray ray = rays[row.ray];
     const V ox = hn::Set(d, ray.origin.x), oy = hn::Set(d, ray.origin.y), oz = hn::Set(d, ray.origin.z);
@@ -55,9 +55,11 @@ void WritePoints(const ShadowRays& rays, std::span<const ShadowRow> rows, float*
     float* const px = x + row.first;
     float* const py = y + row.first;
     float* const pz = z + row.first;
+    V number = iota;
     for (int i = 0; i < row.n; i += lanes()) {
       // Not fused, as in step_loops.cpp.
-      const V t = hn::Add(hn::Mul(hn::Add(iota, hn::Set(d, static_cast<float>(i))), step), begin);
+      const V t = hn::Add(hn::Mul(number, step), begin);
+      number = hn::Add(number, each);
       hn::StoreU(hn::Add(hn::Mul(wx, t), ox), d, px + i);
       hn::StoreU(hn::Add(hn::Mul(wy, t), oy), d, py + i);
       hn::StoreU(hn::Add(hn::Mul(wz, t), oz), d, pz + i);

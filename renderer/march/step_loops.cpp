@@ -46,11 +46,13 @@ void WriteSteps(const Ray& ray, const StepRow& row, float* t, float* x, float* y
   const Line line(ray);
   const V begin = hn::Set(d, row.begin), step = hn::Set(d, row.step), offset = hn::Set(d, row.offset);
   const V end = hn::Set(d, row.end), all = hn::Mul(offset, step), last = hn::Set(d, static_cast<float>(row.n - 1));
+  const V each = hn::Set(d, static_cast<float>(lanes()));
+  V number = iota();
   for (int i = 0; i < row.n; i += lanes()) {
-    const V number = hn::Add(iota(), hn::Set(d, static_cast<float>(i)));
     const V edge = hn::Add(hn::Mul(number, step), begin);
     hn::StoreU(edge, d, t + i);
     const V inside = hn::IfThenElse(hn::Lt(number, last), all, hn::Mul(offset, hn::Sub(end, edge)));
+    number = hn::Add(number, each);
     line.store(hn::Add(edge, inside), x + i, y + i, z + i);
   }
 }
