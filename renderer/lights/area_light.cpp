@@ -2,15 +2,12 @@
 
 namespace brume {
 
-IncidentLight AreaLight::incident(const LightPoint& point, Vec3 x) const {
-  const Vec3 to_light = point.position - x;
-  const float distance = length(to_light);
-  if (!(distance > kAtTheLight)) return {{0, 0, 1}, distance, {}};
-  const Vec3 wi = to_light / distance;
-  const float cosine = -dot(wi, point.normal);
-  const float facing = two_sided_ ? std::abs(cosine) : std::max(0.0f, cosine);
-  const float seen = facing * area_ / (distance * distance);  // solid angle per unit of the uniform pdf
-  return {wi, distance, radiance_ * seen, seen > 0 ? 1 / seen : 0};
+LightPoint AreaLight::point_at(Vec3 position, Vec3 normal) const {
+  return {.position = position,
+          .normal = normal,
+          .falloff = Falloff::lambertian(two_sided_),
+          .sent = radiance_ * area_,
+          .pdf = 1 / area_};
 }
 
 Interval AreaLight::lit_part(const LightPoint& point, const Ray& ray) const {
@@ -28,10 +25,7 @@ std::optional<LightHit> AreaLight::hit(const Ray& ray) const {
   const float cosine = -dot(ray.direction, met->normal);
   const float facing = two_sided_ ? std::abs(cosine) : cosine;
   if (!(facing > 0)) return std::nullopt;
-  return LightHit{met->t,
-                  radiance_,
-                  met->t * met->t / (facing * area_),
-                  {LightPoint::Kind::Finite, ray.at(met->t), {}, met->normal}};
+  return LightHit{met->t, radiance_, met->t * met->t / (facing * area_), point_at(ray.at(met->t), met->normal)};
 }
 
 std::optional<LightPivot> AreaLight::pivot() const {
@@ -40,6 +34,10 @@ std::optional<LightPivot> AreaLight::pivot() const {
                     .normal = plane_normal(),
                     .two_sided = two_sided_,
                     .intensity = radiance_ * area_};
+}
+
+float AreaLight::largest_solid_angle(const Ray& ray) const {
+  return solid_angle(ray.at(std::clamp(dot(middle_ - ray.origin, ray.direction), ray.span.begin, ray.span.end)));
 }
 
 float AreaLight::solid_angle(Vec3 x) const {

@@ -10,11 +10,11 @@ namespace brume {
 /// drawn uniformly over the area; kinds differ only in where their points lie.
 class AreaLight : public Light {
  public:
-  IncidentLight incident(const LightPoint& point, Vec3 x) const override;
   /// The ray above the tangent plane of the point.
   Interval lit_part(const LightPoint& point, const Ray& ray) const final;
   std::optional<LightHit> hit(const Ray& ray) const final;
   float solid_angle(Vec3 x) const override;
+  float largest_solid_angle(const Ray& ray) const final;
   std::optional<LightPivot> pivot() const final;
 
  protected:
@@ -27,6 +27,8 @@ class AreaLight : public Light {
 
   /// Unit normal of the lit side where all of the surface lies in a plane; 0 elsewhere.
   virtual Vec3 plane_normal() const { return {}; }
+
+  LightPoint point_at(Vec3 position, Vec3 normal) const;
 
   float sampled_area() const { return area_; }
   Vec3 middle() const { return middle_; }

@@ -2,11 +2,7 @@
 
 namespace brume {
 
-LightPoint ConstantEnvironment::sample_point(Vec2) const { return {LightPoint::Kind::Environment, {}, {}, {}}; }
-
-IncidentLight ConstantEnvironment::incident(const LightPoint& point, Vec3) const {
-  return {point.direction, std::numeric_limits<float>::infinity(), {}, 0};
-}
+LightPoint ConstantEnvironment::sample_point(Vec2) const { return {.kind = LightPoint::Kind::Environment}; }
 
 std::optional<LightHit> ConstantEnvironment::hit(const Ray& ray) const {
   if (ray.span.end != std::numeric_limits<float>::infinity()) return std::nullopt;

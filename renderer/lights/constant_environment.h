@@ -11,7 +11,6 @@ class ConstantEnvironment final : public Light {
   explicit ConstantEnvironment(Color radiance) : radiance_(radiance) {}
   LightPoint::Kind kind() const override { return LightPoint::Kind::Environment; }
   LightPoint sample_point(Vec2) const override;
-  IncidentLight incident(const LightPoint& point, Vec3 x) const override;
   Color environment_radiance() const override { return radiance_; }
   std::optional<LightHit> hit(const Ray& ray) const override;
 

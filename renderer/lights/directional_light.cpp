@@ -14,14 +14,17 @@ DirectionalLight::DirectionalLight(Vec3 travel, Color irradiance, float angular_
   one_minus_cos_ = 2 * s * s;
 }
 
-LightPoint DirectionalLight::sample_point(Vec2 u) const {
-  return {LightPoint::Kind::Distant, {}, one_minus_cos_ > 0 ? uniform_cone(-travel_, one_minus_cos_, u) : -travel_, {}};
+LightPoint DirectionalLight::point_at(Vec3 direction) const {
+  LightPoint point{.kind = LightPoint::Kind::Distant, .direction = direction, .sent = irradiance_};
+  if (one_minus_cos_ == 0) return point;
+  // L / pdf = E / (pi sin^2) * 2 pi (1 - cos) = 2 E / (1 + cos).
+  point.sent *= 2 / (2 - one_minus_cos_);
+  point.pdf = 1 / (2 * kPi * one_minus_cos_);
+  return point;
 }
 
-IncidentLight DirectionalLight::incident(const LightPoint& point, Vec3) const {
-  if (one_minus_cos_ == 0) return {point.direction, kInfinity, irradiance_};
-  // L / pdf = E / (pi sin^2) * 2 pi (1 - cos) = 2 E / (1 + cos).
-  return {point.direction, kInfinity, irradiance_ * (2 / (2 - one_minus_cos_)), 1 / (2 * kPi * one_minus_cos_)};
+LightPoint DirectionalLight::sample_point(Vec2 u) const {
+  return point_at(one_minus_cos_ > 0 ? uniform_cone(-travel_, one_minus_cos_, u) : -travel_);
 }
 
 std::optional<LightHit> DirectionalLight::hit(const Ray& ray) const {
@@ -29,8 +32,8 @@ std::optional<LightHit> DirectionalLight::hit(const Ray& ray) const {
   // 1 - cos of the angle to the middle, from the distance between the unit vectors: small discs keep their shape.
   if (0.5f * length_squared(ray.direction + travel_) > one_minus_cos_) return std::nullopt;
   const Color radiance = irradiance_ / (kPi * one_minus_cos_ * (2 - one_minus_cos_));
-  return LightHit{
-      kInfinity, radiance, 1 / (2 * kPi * one_minus_cos_), {LightPoint::Kind::Distant, {}, ray.direction, {}}};
+  const LightPoint point = point_at(ray.direction);
+  return LightHit{kInfinity, radiance, point.pdf, point};
 }
 
 float DirectionalLight::solid_angle(Vec3) const { return 2 * kPi * one_minus_cos_; }

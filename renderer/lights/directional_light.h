@@ -14,11 +14,12 @@ class DirectionalLight final : public Light {
   DirectionalLight(Vec3 travel, Color irradiance, float angular_diameter = 0);
   LightPoint::Kind kind() const override { return LightPoint::Kind::Distant; }
   LightPoint sample_point(Vec2 u) const override;
-  IncidentLight incident(const LightPoint& point, Vec3 x) const override;
   std::optional<LightHit> hit(const Ray& ray) const override;
   float solid_angle(Vec3 x) const override;
 
  private:
+  LightPoint point_at(Vec3 direction) const;
+
   Vec3 travel_;
   Color irradiance_;
   float one_minus_cos_;  // of the disc's radius

@@ -6,7 +6,7 @@ namespace brume {
 
 LightPoint DiscLight::sample_point(Vec2 u) const {
   const Vec2 p = uniform_disc(u);
-  return {LightPoint::Kind::Finite, center_ + frame_.s * (p.x * radius_) + frame_.t * (p.y * radius_), {}, frame_.n};
+  return point_at(center_ + frame_.s * (p.x * radius_) + frame_.t * (p.y * radius_), frame_.n);
 }
 
 std::optional<SurfaceCrossing> DiscLight::meet(const Ray& ray) const {

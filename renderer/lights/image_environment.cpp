@@ -9,24 +9,20 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 ImageEnvironment::ImageEnvironment(std::shared_ptr<const EnvironmentMap> map, Color scale, float rotation)
     : map_(std::move(map)), scale_(scale), cos_(std::cos(rotation)), sin_(std::sin(rotation)) {}
 
-LightPoint ImageEnvironment::sample_point(Vec2 u) const {
-  return {LightPoint::Kind::Distant, {}, from_map(map_->sample(u).direction), {}};
+LightPoint ImageEnvironment::point_at(Vec3 direction) const {
+  LightPoint point{.kind = LightPoint::Kind::Distant, .direction = direction};
+  const Vec3 in_map = to_map(direction);
+  point.pdf = map_->pdf_w(in_map);
+  if (point.pdf > 0) point.sent = map_->radiance(in_map) * scale_ / point.pdf;
+  return point;
 }
 
-IncidentLight ImageEnvironment::incident(const LightPoint& point, Vec3) const {
-  const Vec3 in_map = to_map(point.direction);
-  const float pdf = map_->pdf_w(in_map);
-  if (!(pdf > 0)) return {point.direction, kInfinity, {}, 0};
-  return {point.direction, kInfinity, map_->radiance(in_map) * scale_ / pdf, pdf};
-}
+LightPoint ImageEnvironment::sample_point(Vec2 u) const { return point_at(from_map(map_->sample(u).direction)); }
 
 std::optional<LightHit> ImageEnvironment::hit(const Ray& ray) const {
   if (ray.span.end != kInfinity) return std::nullopt;
-  const Vec3 in_map = to_map(ray.direction);
-  return LightHit{kInfinity,
-                  map_->radiance(in_map) * scale_,
-                  map_->pdf_w(in_map),
-                  {LightPoint::Kind::Distant, {}, ray.direction, {}}};
+  const LightPoint point = point_at(ray.direction);
+  return LightHit{kInfinity, map_->radiance(to_map(ray.direction)) * scale_, point.pdf, point};
 }
 
 }  // namespace brume

@@ -13,11 +13,11 @@ class ImageEnvironment final : public Light {
   ImageEnvironment(std::shared_ptr<const EnvironmentMap> map, Color scale, float rotation);
   LightPoint::Kind kind() const override { return LightPoint::Kind::Distant; }
   LightPoint sample_point(Vec2 u) const override;
-  IncidentLight incident(const LightPoint& point, Vec3 x) const override;
   std::optional<LightHit> hit(const Ray& ray) const override;
   float solid_angle(Vec3 x) const override { return static_cast<void>(x), map_->solid_angle(); }
 
  private:
+  LightPoint point_at(Vec3 direction) const;
   Vec3 to_map(Vec3 d) const { return {cos_ * d.x + sin_ * d.y, cos_ * d.y - sin_ * d.x, d.z}; }
   Vec3 from_map(Vec3 d) const { return {cos_ * d.x - sin_ * d.y, cos_ * d.y + sin_ * d.x, d.z}; }
 

@@ -3,34 +3,11 @@
 
 #include <optional>
 
-#include "renderer/core/ray.h"
+#include "renderer/lights/light_point.h"
 
 namespace brume {
 
-/// A place on a light, chosen before the distance along the ray, so that equi-angular sampling can be about the very
-/// point that the shadow ray goes to (for a large near light the centre would be far worse).
-struct LightPoint {
-  enum class Kind {
-    Finite,       ///< `position` counts, and `normal` on lights with a surface
-    Distant,      ///< `direction` counts: unit, from the scene towards the light
-    Environment,  ///< the direction is still open: the phase function draws it
-  };
-  Kind kind = Kind::Finite;
-  Vec3 position;
-  Vec3 direction;
-  Vec3 normal;  ///< unit, of the lit side
-};
-
-/// Light arriving at a point from a LightPoint.
-struct IncidentLight {
-  Vec3 wi;           ///< unit, from the point towards the light
-  float distance;    ///< world units; infinite for distant lights
-  Color irradiance;  ///< normal irradiance, W/m^2, divided by the pdf of the light point, before any transmittance
-  float pdf_w = 0;   ///< with which sample_point() chooses this direction, per sr; 0: a single direction
-};
-
-/// Nearer to a light point than this, in world units, nothing is received: 1/r^2 has no value that a float could hold.
-inline constexpr float kAtTheLight = 1e-15f;
+class Surface;
 
 /// Share of the way to a light point at which a shadow ray ends, short of the surface that the point is on.
 inline constexpr float kJustBefore = 1 - 1e-4f;
@@ -63,8 +40,11 @@ class Light {
   /// @param u  uniform in [0,1)^2
   virtual LightPoint sample_point(Vec2 u) const = 0;
 
-  /// What `x` receives from `point`; only for Finite and Distant points.
-  virtual IncidentLight incident(const LightPoint& point, Vec3 x) const = 0;
+  /// What `x` receives from `point`, whatever is in the way but the light itself.
+  IncidentLight incident(const LightPoint& point, Vec3 x) const;
+
+  /// What keeps the light of one of its parts from shining through another; null where nothing can or need.
+  virtual const Surface* own_shadow() const { return nullptr; }
 
   /// The part of the ray that `point` can light at all (one side of a quad, the inside of a cone).
   virtual Interval lit_part(const LightPoint& point, const Ray& ray) const;
@@ -80,6 +60,9 @@ class Light {
 
   /// How large the light looks from x, sr, roughly; 0 for lights that no ray can hit.
   virtual float solid_angle(Vec3 x) const;
+
+  /// At most from anywhere on the ray.
+  virtual float largest_solid_angle(const Ray& ray) const { return solid_angle(ray.origin); }
 
   bool visible_to_camera = false;
 };

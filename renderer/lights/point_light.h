@@ -9,7 +9,6 @@ class PointLight final : public Light {
  public:
   PointLight(Vec3 position, Color intensity) : position_(position), intensity_(intensity) {}
   LightPoint sample_point(Vec2) const override;
-  IncidentLight incident(const LightPoint& point, Vec3 x) const override;
   std::optional<LightPivot> pivot() const override {
     return LightPivot{.position = position_, .intensity = intensity_};
   }

@@ -9,9 +9,7 @@ QuadLight::QuadLight(Vec3 corner, Vec3 edge_u, Vec3 edge_v, Color radiance, bool
       edge_v_(edge_v),
       normal_(cross(edge_u, edge_v) / sampled_area()) {}
 
-LightPoint QuadLight::sample_point(Vec2 u) const {
-  return {LightPoint::Kind::Finite, corner_ + edge_u_ * u.x + edge_v_ * u.y, {}, normal_};
-}
+LightPoint QuadLight::sample_point(Vec2 u) const { return point_at(corner_ + edge_u_ * u.x + edge_v_ * u.y, normal_); }
 
 std::optional<SurfaceCrossing> QuadLight::meet(const Ray& ray) const {
   const float slope = dot(ray.direction, normal_);

@@ -9,20 +9,8 @@ SpotLight::SpotLight(Vec3 position, Vec3 axis, float outer_angle, float blend, C
       cos_inner_(cos_outer_ + blend * (1 - cos_outer_)),
       intensity_(intensity) {}
 
-LightPoint SpotLight::sample_point(Vec2) const { return {LightPoint::Kind::Finite, position_, {}, {}}; }
-
-IncidentLight SpotLight::incident(const LightPoint&, Vec3 x) const {
-  const Vec3 to_light = position_ - x;
-  const float distance = length(to_light);
-  if (!(distance > kAtTheLight)) return {{0, 0, 1}, distance, {}};
-  const Vec3 wi = to_light / distance;
-  const float c = -dot(wi, axis_);
-  float falloff = c > cos_outer_ ? 1.0f : 0.0f;
-  if (c > cos_outer_ && c < cos_inner_) {
-    const float s = (c - cos_outer_) / (cos_inner_ - cos_outer_);
-    falloff = s * s * (3 - 2 * s);
-  }
-  return {wi, distance, intensity_ * (falloff / (distance * distance))};
+LightPoint SpotLight::sample_point(Vec2) const {
+  return {.position = position_, .normal = axis_, .falloff = Falloff::cone(cos_outer_, cos_inner_), .sent = intensity_};
 }
 
 Interval SpotLight::lit_part(const LightPoint&, const Ray& ray) const {

@@ -12,7 +12,6 @@ class SpotLight final : public Light {
   /// cosine's range over which the light falls, in [0, 1]
   SpotLight(Vec3 position, Vec3 axis, float outer_angle, float blend, Color intensity);
   LightPoint sample_point(Vec2) const override;
-  IncidentLight incident(const LightPoint& point, Vec3 x) const override;
   Interval lit_part(const LightPoint& point, const Ray& ray) const override;
   std::optional<LightPivot> pivot() const override {
     return LightPivot{.position = position_, .intensity = intensity_};

@@ -4,14 +4,7 @@ namespace brume {
 
 LightPoint SurfaceLight::sample_point(Vec2 u) const {
   const auto [position, normal] = sampling_->sample(u);
-  return {LightPoint::Kind::Finite, position, {}, normal};
-}
-
-IncidentLight SurfaceLight::incident(const LightPoint& point, Vec3 x) const {
-  IncidentLight incident = AreaLight::incident(point, x);
-  if (hiding_ != Hiding::ByLight || is_black(incident.irradiance)) return incident;
-  if (surface_->occluded({x, incident.wi, {0, incident.distance * kJustBefore}})) incident.irradiance = {};
-  return incident;
+  return point_at(position, normal);
 }
 
 float SurfaceLight::solid_angle(Vec3 x) const {

@@ -23,7 +23,7 @@ class SurfaceLight : public AreaLight {
         hiding_(hiding) {}
 
   LightPoint sample_point(Vec2 u) const override;
-  IncidentLight incident(const LightPoint& point, Vec3 x) const override;
+  const Surface* own_shadow() const override { return hiding_ == Hiding::ByLight ? surface_.get() : nullptr; }
   float solid_angle(Vec3 x) const override;
 
  private:

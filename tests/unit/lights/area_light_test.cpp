@@ -92,7 +92,8 @@ TEST(DiscLight, MeanIrradianceIsRadianceTimesSolidAngleAndNothingIsBehind) {
       front.add(double(in.irradiance.r));
       const IncidentLight behind = disc().incident(point, kCenter - kNormal * h);
       ASSERT_TRUE(is_black(behind.irradiance) && behind.pdf_w == 0) << "light behind a one-sided disc";
-      back.add(double(disc(true).incident(point, kCenter - kNormal * h).irradiance.r));
+      const LightPoint of_both = disc(true).sample_point(random_pair(i));
+      back.add(double(disc(true).incident(of_both, kCenter - kNormal * h).irradiance.r));
     }
     const double expected = 2 * disc_sr(double(kRadius), double(h));
     EXPECT_NEAR(front.mean(), expected, z * front.standard_error() + 1e-6) << "h = " << h;
