@@ -16,6 +16,14 @@ constexpr std::size_t whole_vectors(int n) {
   return static_cast<std::size_t>((n + kWidestVector - 1) / kWidestVector * kWidestVector);
 }
 
+/// A value for each lane of the widest vectors, which may be more than are in use.
+template <class T> struct alignas(sizeof(T) * kWidestVector) LaneArray {
+  T v[kWidestVector];
+
+  const T& operator[](int lane) const { return v[lane]; }
+  T& operator[](int lane) { return v[lane]; }
+};
+
 /// The levels this processor can run and this program holds, best first, e.g. {"avx3", "avx2", "sse4", "ssse3",
 /// "scalar"}: Highway's target names in lower case ("avx3" is AVX-512; the last one is plain C++ and always there).
 /// Not narrowed by force_simd_level().

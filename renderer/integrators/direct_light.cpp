@@ -87,11 +87,7 @@ template <int C> struct LightSampling {
     const int about_light = samples - of_density;
     if (about_light > 0) {
       const auto u = numbers.distances(Decision::EquiangularDistance);
-      for (int j = 0; j < about_light; ++j) {
-        const int k = of_density + j;
-        batch.add_about({light, DistanceTechnique::Equiangular, share, combined}, u(j, about_light), numbers.point(k),
-                        numbers.of_shadow(k));
-      }
+      batch.add_about({light, DistanceTechnique::Equiangular, share, combined}, numbers, u, of_density, about_light);
     }
   }
 
@@ -111,7 +107,7 @@ template <int C> struct LightSampling {
 template <int C>
 ProductSampling<C> product_sampling(const MarchRecord<C>& record, const float* p, const Ray& ray, const Scene& scene,
                                     const Light& light, const LightPivot& pivot, Arena& arena) {
-  const LightPoint middle{LightPoint::Kind::Finite, pivot.position, {}, pivot.normal};
+  const LightPoint middle{.position = pivot.position, .normal = pivot.normal};
   const bool has_one_lit_part = pivot.normal != Vec3() || pivot.radius == 0;
   return {record,
           p,

@@ -1,23 +1,22 @@
 #include "renderer/integrators/light_batch.h"
 
-#include "renderer/march/mis.h"
+#include "renderer/integrators/incoming_light.h"
 #include "renderer/march/product_sampling.h"
 #include "renderer/march/tracking.h"
 
 namespace brume {
 
 template <int C> struct LightBatch<C>::Sample {
-  /// Whether a density about its point counts.
-  bool is_about() const { return combined || technique == DistanceTechnique::Equiangular; }
-
   const Light& light;
   LightPoint point;
   ShadowNumbers numbers;
   DistanceTechnique technique;
-  float factor;  // becomes what multiplies the integrand: the weight over the density
-  bool combined;
-  float u;       // number that will draw the distance by equi-angular sampling
-  Interval lit;  // the part of the ray that the point can reach, where a density about it counts
+  bool combined;  // as in Technique
+  bool plain;     // all that there is to know of the light is its point
+
+  bool is_about() const { return technique == DistanceTechnique::Equiangular; }
+  /// Whether a density about its point counts.
+  bool is_aimed() const { return combined || is_about(); }
 };
 
 template <int C>
@@ -30,143 +29,164 @@ LightBatch<C>::LightBatch(const MarchRecord<C>& record, const Ray& ray, Color be
       context_(context),
       shadows_(shadows),
       density_(record, PlaceInSegment::LookedUp),
-      samples_(context.arena.alloc_span<Sample>(kCapacity).data()),
-      points_(context.arena.alloc_span<SampledPoint<C>>(kCapacity).data()),
-      incoming_(context.arena.alloc_span<IncomingLight>(kCapacity).data()) {}
+      samples_(context.arena.alloc_span<Sample>(kCapacity).data()) {}
+
+/// Whether a sample is seen by one phase function and nothing is in its way but the medium, nor does the light look so
+/// large that it is looked for by chance.
+template <int C> bool LightBatch<C>::is_plain(const Light& light) const {
+  const Scene& scene = context_.scene;
+  if (record_.medium_density || scene.surfaces || light.kind() == LightPoint::Kind::Environment || light.own_shadow())
+    return false;
+  return !scene.needs.large_lights ||
+         light.largest_solid_angle({ray_.origin, ray_.direction, record_.span()}) * scene.phase_peak <= 1;
+}
 
 template <int C>
-void LightBatch<C>::add(const Technique& technique, float u, Vec2 u_point, const ShadowNumbers& numbers) {
+void LightBatch<C>::add(const Technique& technique, bool plain, float u, Vec2 u_point, const ShadowNumbers& numbers) {
   // Made where it stays: a copy would wait for what has just been written.
-  Sample& s = *new (&samples_[n_]) Sample{technique.light,
-                                          technique.light.sample_point(u_point),
-                                          numbers,
-                                          technique.distance,
-                                          technique.factor,
-                                          technique.combined,
-                                          u,
-                                          {}};
-  if (s.is_about()) s.lit = lit_part(record_, ray_, s.light, s.point);
-  if (s.technique == DistanceTechnique::Equiangular && s.lit.empty()) return;
+  Sample& s = *new (&samples_[n_]) Sample{
+      technique.light, technique.light.sample_point(u_point), numbers, technique.distance, technique.combined, plain};
+  if (s.is_aimed()) {
+    const Interval lit = lit_part(record_, ray_, s.light, s.point);
+    if (s.is_about() && lit.empty()) return;
+    about_.aim(n_, s.point.position, lit);
+    u_[n_] = u;
+  }
+  lights_.set(n_, s.point);
+  weights_.factor[n_] = technique.factor;
+  weights_.pdf_ratio[n_] = 1;
+  weights_.drawn[n_] = (s.is_about() ? LightWeights<C>::kAbout : 0) | (s.combined ? LightWeights<C>::kCombined : 0);
   if (++n_ == kCapacity) finish();
+}
+
+/// @param elsewise  density there by the technique that knows nothing of the point of the light
+template <int C> void LightBatch<C>::put(int k, const RayPoint<C>& at, float elsewise) {
+  t_[k] = at.t, segment_[k] = at.segment;
+  for (int c = 0; c < C; ++c) weights_.scattered[c][k] = at.sigma_s[c] * at.transmittance[c], weights_.left[c][k] = 0;
+  weights_.elsewise[k] = elsewise;
+}
+
+/// At the place where a segment was looked up.
+/// @param probability  with which the technique that knows nothing of the light's point draws the segment
+template <int C> void LightBatch<C>::put_looked_up(int k, int segment, float probability) {
+  const auto [begin, end] = record_.segment(segment);
+  const float length = end - begin, before = record_.offset * length;
+  t_[k] = begin + before, segment_[k] = segment;
+  for (int c = 0; c < C; ++c) {
+    const auto channel = static_cast<std::size_t>(c);
+    weights_.scattered[c][k] = record_.sigma_s[channel][segment] * record_.transmittance[channel][segment];
+    weights_.left[c][k] = record_.sigma_t[channel][segment] * before;  // still as an optical depth
+  }
+  weights_.elsewise[k] = probability / length;
 }
 
 template <int C>
 template <class Places>
 void LightBatch<C>::add_at(const Technique& technique, const Places& places, const LightNumbers& numbers,
                            const LightNumbers::Distances& u, int count) {
+  const bool plain = is_plain(technique.light);
   DrawnSegment drawn[kCapacity];
   for (int begin = 0; begin < count;) {
-    const int first = n_, group = std::min(count - begin, kCapacity - n_);
+    const int group = std::min(count - begin, kCapacity - n_);
     for (int j = 0; j < group; ++j) drawn[j] = places.draw(u(begin + j, count));
-    for (int j = 0; j < group; ++j) new (&points_[first + j]) SampledPoint<C>(places.place(drawn[j]));
     for (int j = 0; j < group; ++j) {
-      if (!(points_[first + j].pdf_t > 0)) continue;
-      if (n_ < first + j) points_[n_] = points_[first + j];
-      add(technique, 0, numbers.point(begin + j), numbers.of_shadow(begin + j));
+      const int segment = drawn[j].segment;
+      if (places.is_looked_up(segment)) {
+        put_looked_up(n_, segment, places.probability(segment));
+      } else {
+        const SampledPoint<C> place = places.place(drawn[j]);
+        put(n_, place.at, place.pdf_t);
+      }
+      add(technique, plain, 0, numbers.point(begin + j), numbers.of_shadow(begin + j));
     }
     begin += group;
   }
 }
 
 template <int C>
-void LightBatch<C>::add_about(const Technique& technique, float u, Vec2 u_point, const ShadowNumbers& numbers) {
-  add(technique, u, u_point, numbers);
+void LightBatch<C>::add_about(const Technique& technique, const LightNumbers& numbers, const LightNumbers::Distances& u,
+                              int first, int count) {
+  const bool plain = is_plain(technique.light);
+  for (int j = 0; j < count; ++j)
+    add(technique, plain, u(j, count), numbers.point(first + j), numbers.of_shadow(first + j));
 }
 
-template <int C> void LightBatch<C>::place_about(EquiangularLanes& lanes) {
-  alignas(64) float u[kCapacity], t[kCapacity];
+template <int C> void LightBatch<C>::place_about() {
+  LaneArray<float> t;
+  about_.measure(ray_, n_);
+  about_.sample(u_, t);
   for (int k = 0; k < n_; ++k) {
-    u[k] = samples_[k].u;
-    lanes.aim(k, samples_[k].point.position, samples_[k].lit);
-  }
-  lanes.measure(ray_);
-  lanes.sample(u, t);
-  for (int k = 0; k < n_; ++k) {
-    if (samples_[k].technique != DistanceTechnique::Equiangular) continue;
+    Sample& s = samples_[k];
+    if (!s.is_about()) continue;
     const int i = find_segment(record_, t[k]);
-    new (&points_[k].at) RayPoint<C>(follows(lanes, k, i) ? evaluate(record_, t[k], i) : looked_up_point(record_, i));
+    if (!follows(k, i)) {
+      put_looked_up(k, i, density_.probability(i));
+      continue;
+    }
+    const RayPoint<C> at = evaluate(record_, t[k], i);
+    put(k, at, density_.pdf(at));
+    if (!record_.is_homogeneous(i)) s.plain = false;  // the record knows another place of the segment only
   }
 }
 
-template <int C> bool LightBatch<C>::look_at_light(int k, EquiangularLanes& lanes) {
+template <int C> bool LightBatch<C>::look_closely(int k) {
   const ArenaScope scope(context_.arena);
   const Scene& scene = context_.scene;
   Sample& s = samples_[k];
-  RayPoint<C>& at = points_[k].at;
-  IncomingLight& in = incoming_[k];  // made there, as in add()
-  const Vec3 x = ray_.at(at.t);
+  const Vec3 x = ray_.at(t_[k]);
   const LightTechnique<C> technique(s.light, context_, bounce_, s.numbers.index);
-  const auto phase = [&] { return PhaseMixture<C>(scene, ray_.direction, record_, at.segment, context_.arena); };
-  if (s.technique != DistanceTechnique::Equiangular) {
-    new (&in) IncomingLight(technique.draw(s.point, x, phase()));
-    if (!in.by_chance || !s.combined) return false;
-    lanes.aim(k, s.point.position, lit_part(record_, ray_, s.light, s.point));
-    return true;
-  }
-  if (!record_.is_homogeneous(at.segment) && lanes.is_near(k, record_.segment(at.segment))) {
-    // The record knows another place of the segment only.
+  const auto saw = [&](const IncomingLight& in) {
+    lights_.replace(k, in.wi, in.distance, in.scattered);
+    weights_.phase[k] = 1, weights_.pdf_ratio[k] = in.pdf_ratio;
+    return in.by_chance;
+  };
+  const int i = segment_[k];
+  if (s.is_about() && !record_.is_homogeneous(i) && about_.is_near(k, record_.segment(i))) {
     const Collision<C> there =
-        collision_at<C>(scene.media, ray_, at.t, scene.render.time, context_.arena, context_.statistics.march);
-    at.sigma_s = there.sigma_s;
-    new (&in) IncomingLight(technique.towards(s.point, x, PhaseMixture<C>(scene, ray_.direction, there.densities)));
-  } else {
-    new (&in) IncomingLight(technique.towards(s.point, x, phase()));
+        collision_at<C>(scene.media, ray_, t_[k], scene.render.time, context_.arena, context_.statistics.march);
+    const Spectrum<C> transmittance = evaluate(record_, t_[k], i).transmittance;
+    for (int c = 0; c < C; ++c) weights_.scattered[c][k] = there.sigma_s[c] * transmittance[c];
+    return saw(technique.towards(s.point, x, PhaseMixture<C>(scene, ray_.direction, there.densities)));
   }
-  return false;
+  const PhaseMixture<C> phase(scene, ray_.direction, record_, i, context_.arena);
+  if (s.is_about()) return saw(technique.towards(s.point, x, phase));
+  if (!saw(technique.draw(s.point, x, phase)) || !s.combined) return false;
+  about_.aim(k, s.point.position, lit_part(record_, ray_, s.light, s.point));
+  return true;
 }
 
-template <int C> void LightBatch<C>::weigh(const EquiangularLanes& lanes) {
-  alignas(64) float begin[kCapacity], end[kCapacity], equiangular[kCapacity];
-  for (int k = 0; k < lanes.size(); ++k) {
-    const RayPoint<C>& at = points_[k].at;
-    const Interval part = follows(lanes, k, at.segment) ? Interval{at.t, at.t} : record_.segment(at.segment);
+template <int C> void LightBatch<C>::find_pdfs() {
+  LaneArray<float> begin, end;
+  for (int k = 0; k < n_; ++k) {
+    const Interval part = follows(k, segment_[k]) ? Interval{t_[k], t_[k]} : record_.segment(segment_[k]);
     begin[k] = part.begin, end[k] = part.end;
   }
-  lanes.pdf(begin, end, equiangular);
-  const MisHeuristic heuristic = context_.scene.render.mis_heuristic;
-  for (int k = 0; k < n_; ++k) {
-    Sample& s = samples_[k];
-    const bool about = s.technique == DistanceTechnique::Equiangular;
-    const float pdf = about ? equiangular[k] : points_[k].pdf_t;
-    if (!(pdf > 0)) {  // on the border of the lit part: of no use
-      s.factor = 0;
-      continue;
-    }
-    float weight = 1;
-    if (s.combined) {
-      const float ratio = incoming_[k].pdf_ratio;
-      weight = about ? mis_weight(heuristic, pdf, density_.pdf(points_[k].at) * ratio)
-                     : mis_weight(heuristic, pdf * ratio, equiangular[k]);
-    }
-    s.factor *= weight / pdf;
-  }
+  about_.pdf(begin, end, weights_.equiangular);
 }
 
 template <int C> void LightBatch<C>::hand_over(int k) {
   const Sample& s = samples_[k];
-  const RayPoint<C>& at = points_[k].at;
-  const IncomingLight& in = incoming_[k];
-  Color carried = beta_ * in.scattered * s.factor;
-  for (int c = 0; c < 3; ++c) {
-    const int channel = C == 1 ? 0 : c;
-    carried[c] *= at.sigma_s[channel] * at.transmittance[channel];
-  }
+  const Color carried{weights_.carried[0][k], weights_.carried[1][k], weights_.carried[2][k]};
   if (is_black(carried)) return;
-  context_.note(bounce_, ray_.at(at.t), s.technique, carried);
-  shadows_.add(s.light, {ray_.at(at.t), in.wi, {0, in.distance}}, carried, s.numbers);
+  context_.note(bounce_, lights_.x(k), s.technique, carried);
+  shadows_.add(s.light, {lights_.x(k), lights_.wi(k), {0, lights_.distance(k)}}, carried, s.numbers);
 }
 
 template <int C> void LightBatch<C>::finish() {
   if (n_ == 0) return;
-  const ArenaScope scope(context_.arena);
-  bool about = false;
-  for (int k = 0; k < n_; ++k) about |= samples_[k].is_about();
-  EquiangularLanes lanes(about ? n_ : 0, context_.arena);
-  if (about) place_about(lanes);
+  const Scene& scene = context_.scene;
+  bool aimed = false;
+  for (int k = 0; k < n_; ++k) aimed |= samples_[k].is_aimed();
+  if (aimed) place_about();
+  lights_.look(ray_, t_, n_);
+  scene.phases[0]->values(lights_.cosine().v, n_, weights_.phase.v);
+  for (int c = 0; c < C; ++c) exp_minus(weights_.left[c].v, n_);
   bool aimed_anew = false;
-  for (int k = 0; k < n_; ++k) aimed_anew |= look_at_light(k, lanes);
-  if (aimed_anew) lanes.measure(ray_);
-  weigh(lanes);
+  for (int k = 0; k < n_; ++k)
+    if (!samples_[k].plain) aimed_anew |= look_closely(k);
+  if (aimed_anew) about_.measure(ray_, n_);
+  if (aimed) find_pdfs();
+  carry(weights_, lights_, beta_, scene.render.mis_heuristic, n_);
   for (int k = 0; k < n_; ++k) hand_over(k);
   n_ = 0;
 }

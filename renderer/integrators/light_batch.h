@@ -1,7 +1,7 @@
 // Light samples of one ray, taken through their steps together.
 #pragma once
 
-#include "renderer/integrators/incoming_light.h"
+#include "renderer/integrators/light_weights.h"
 #include "renderer/integrators/marched_shadows.h"
 #include "renderer/march/density_sampling.h"
 #include "renderer/march/equiangular_lanes.h"
@@ -16,9 +16,8 @@ Interval lit_part(const MarchRecord<C>& record, const Ray& ray, const Light& lig
 
 /// Samples of the light that is scattered once along a recorded ray towards its origin. Each is a point of a light and
 /// a place on the ray; what it carries, sigma_s T L_scattered over the densities, is handed to the shadows. A step of a
-/// sample waits for the one before it, but not for those of other samples, so each step is made for all of them: a
-/// processor works on several at once, and on as many as a vector holds where the step is a kernel. Lives in the arena
-/// scope that was open when it was made.
+/// sample waits for the one before it, but not for those of other samples, so each step is made for all of them, at
+/// SIMD width. Lives in the arena scope that was open when it was made.
 template <int C> class LightBatch {
  public:
   /// @param record  distributed, with scattered() > 0.  @param beta  throughput at its start.  @param bounce  scattered
@@ -40,29 +39,34 @@ template <int C> class LightBatch {
   void add_at(const Technique& technique, const Places& places, const LightNumbers& numbers,
               const LightNumbers::Distances& u, int count);
 
-  /// A sample whose distance is drawn about its point by equi-angular sampling: about that very point the segment is
-  /// chosen, and the distance, too, where the segment is homogeneous or so near to the point that 1/r^2 varies in it,
-  /// and what scatters there is looked up. Elsewhere it is the place where the segment was looked up
-  /// (PlaceInSegment::LookedUp), with the mean of the distribution's density over the segment.
-  /// @param u  of the distance
-  void add_about(const Technique& technique, float u, Vec2 u_point, const ShadowNumbers& numbers);
+  /// The samples of a light from number `first` on, whose distances are drawn about their points by equi-angular
+  /// sampling: about that very point the segment is chosen, and the distance, too, where the segment is homogeneous or
+  /// so near to the point that 1/r^2 varies in it, and what scatters there is looked up. Elsewhere it is the place
+  /// where the segment was looked up (PlaceInSegment::LookedUp), with the mean of the distribution's density over the
+  /// segment.
+  /// @param u  of the distances
+  void add_about(const Technique& technique, const LightNumbers& numbers, const LightNumbers::Distances& u, int first,
+                 int count);
 
   /// Takes the samples that are left through their steps.
   void finish();
 
  private:
-  static constexpr int kCapacity = 16;
+  static constexpr int kCapacity = kWidestVector;
   struct Sample;
 
-  void add(const Technique& technique, float u, Vec2 u_point, const ShadowNumbers& numbers);
-  void place_about(EquiangularLanes& lanes);
+  bool is_plain(const Light& light) const;
+  void add(const Technique& technique, bool plain, float u, Vec2 u_point, const ShadowNumbers& numbers);
+  void put(int k, const RayPoint<C>& at, float elsewise);
+  void put_looked_up(int k, int segment, float probability);
+  void place_about();
   /// @return whether it was met by chance, in another point, at which the lane is aimed now
-  bool look_at_light(int k, EquiangularLanes& lanes);
-  void weigh(const EquiangularLanes& lanes);
+  bool look_closely(int k);
+  void find_pdfs();
   void hand_over(int k);
 
-  bool follows(const EquiangularLanes& lanes, int lane, int segment) const {
-    return record_.is_homogeneous(segment) || lanes.is_near(lane, record_.segment(segment));
+  bool follows(int k, int segment) const {
+    return record_.is_homogeneous(segment) || about_.is_near(k, record_.segment(segment));
   }
 
   const MarchRecord<C>& record_;
@@ -72,9 +76,13 @@ template <int C> class LightBatch {
   SampleContext& context_;
   MarchedShadows<C>& shadows_;
   DensitySampling<C> density_;
-  Sample* samples_;          // [kCapacity], like the others
-  SampledPoint<C>* points_;  // where they are; equi-angular densities are found for all together
-  IncomingLight* incoming_;  // what arrives there
+  Sample* samples_;                  // [kCapacity]
+  LaneArray<float> t_;               // where they are
+  LaneArray<std::int32_t> segment_;  // the same
+  EquiangularLanes about_;           // the points of the lights, where a density about them counts
+  LaneArray<float> u_;               // the numbers that will draw distances by it
+  LightLanes lights_;
+  LightWeights<C> weights_;
   int n_ = 0;
 };
 

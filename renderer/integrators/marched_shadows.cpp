@@ -19,15 +19,15 @@ void MarchedShadows<C>::add(const Light&, const Ray& shadow, Color carried, cons
   carried_[static_cast<std::size_t>(rays_.n)] = carried;
   index_[static_cast<std::size_t>(rays_.n)] = numbers.index;
   rays_.add(shadow, numbers.offset);
+  const float most = luminance(carried);
+  carried_sum_ += most, carried_least_ = std::min(carried_least_, most);
 }
 
 template <int C> void MarchedShadows<C>::play_roulette() {
   constexpr float kFaint = 0.02f;
   const int waiting = rays_.n;
-  float sum = 0;
-  for (const Color& c : carried_.first(static_cast<std::size_t>(waiting))) sum += luminance(c);
-  if (!std::isfinite(sum)) return;
-  const float faint = kFaint * sum / static_cast<float>(waiting);
+  const float faint = kFaint * carried_sum_ / static_cast<float>(waiting);
+  if (carried_least_ >= faint || !std::isfinite(faint)) return;
   rays_.n = 0;
   for (int i = 0; i < waiting; ++i) {
     Color carried = carried_[static_cast<std::size_t>(i)];
@@ -54,6 +54,7 @@ template <int C> void MarchedShadows<C>::march() {
   for (int i = 0; i < rays_.n; ++i)
     sum_ += carried_[static_cast<std::size_t>(i)] * to_color(transmittances_[static_cast<std::size_t>(i)]);
   rays_.n = 0;
+  carried_sum_ = 0, carried_least_ = kInfinity;
 }
 
 template <int C> Color MarchedShadows<C>::light() {

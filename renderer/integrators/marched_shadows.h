@@ -1,6 +1,8 @@
 // Light samples and their shadow rays, marched together.
 #pragma once
 
+#include <limits>
+
 #include "renderer/integrators/integrator.h"
 #include "renderer/march/shadow_march.h"
 #include "renderer/sampling/light_numbers.h"
@@ -24,6 +26,8 @@ template <int C> class MarchedShadows {
  private:
   static constexpr int kWaiting = 32;  // at most; with some thirty steps each they fill the look-ups' vectors
 
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
   void play_roulette();
   void march();
 
@@ -31,6 +35,7 @@ template <int C> class MarchedShadows {
   SampleContext& context_;
   ShadowRays rays_;
   std::span<Color> carried_;
+  float carried_sum_ = 0, carried_least_ = kInfinity;  // luminances of those that wait
   std::span<int> index_;
   std::span<Spectrum<C>> transmittances_;
   Color sum_;

@@ -44,6 +44,10 @@ template <int C> class DensitySampling {
   DrawnSegment draw(float u) const { return draw_segment(record_.cdf, record_.n, u); }
   SampledPoint<C> place(DrawnSegment drawn) const;
 
+  /// Whether the place in the segment is the one where it was looked up, with pdf(t) = probability / length.
+  bool is_looked_up(int segment) const { return !is_drawn(segment); }
+  float probability(int segment) const { return record_.probability(segment); }
+
   /// The same inside a segment that scatters and was drawn by other means.  @param v  in [0, 1]
   /// @param p  P_i of the segment.  @param probability  with which it was drawn
   SampledPoint<C> sample_in(int segment, float v, float p, float probability) const;

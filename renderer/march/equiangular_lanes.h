@@ -1,8 +1,8 @@
 // Equi-angular sampling of one ray about many points of lights, at SIMD width.
 #pragma once
 
-#include "renderer/core/arena.h"
 #include "renderer/core/ray.h"
+#include "renderer/core/simd.h"
 #include "renderer/march/equiangular_distribution.h"
 
 namespace brume {
@@ -14,26 +14,21 @@ namespace brume {
 /// where e is that end's place, from the foot and in the direction of the other end.
 class EquiangularLanes {
  public:
-  /// The arrays live in the arena scope that is open.
-  EquiangularLanes(int lanes, Arena& arena);
-  int size() const { return lanes_.n; }
-
   /// @param span  the part of the ray that is sampled, world units. Empty: the density is 0 everywhere, and nothing is
   /// to be sampled
   void aim(int lane, Vec3 pivot, Interval span);
 
   /// Finds where the pivots are, seen from the ray, and the angles under which they see their spans; to be called when
-  /// all lanes are aimed.
-  void measure(const Ray& ray);
+  /// all lanes below n are aimed, which are those of the functions below.
+  void measure(const Ray& ray, int n);
 
-  /// Arrays here and below as those of an Arena.
-  /// @param u  [lanes] in [0, 1).  @param t  [lanes] distances, one for each u
-  void sample(const float* u, float* t) const;
+  /// @param u  in [0, 1).  @param t  distances, one for each u
+  void sample(const LaneArray<float>& u, LaneArray<float>& t) const;
 
   /// Mean density over a part of the ray that is far from the lane's pivot, or the density at its begin where the part
   /// has no length; per world unit.
-  /// @param begin, end  [lanes] of the parts
-  void pdf(const float* begin, const float* end, float* pdf) const;
+  /// @param begin, end  of the parts
+  void pdf(const LaneArray<float>& begin, const LaneArray<float>& end, LaneArray<float>& pdf) const;
 
   /// Whether 1/r^2 varies within a part of the ray.
   bool is_near(int lane, Interval part) const {
@@ -43,11 +38,11 @@ class EquiangularLanes {
   /// For the loops over lanes. All lengths in world units.
   struct Arrays {
     int n;
-    float* pivot[3];
-    float *begin, *end;      ///< of the span
-    float *foot, *distance;  ///< of the pivot, along the ray and from it
-    float *a, *b;            ///< the span's ends, measured from the foot
-    float* angle;            ///< under which the pivot sees the span; 0: uniform
+    LaneArray<float> pivot[3];
+    LaneArray<float> begin, end;      ///< of the span
+    LaneArray<float> foot, distance;  ///< of the pivot, along the ray and from it
+    LaneArray<float> a, b;            ///< the span's ends, measured from the foot
+    LaneArray<float> angle;           ///< under which the pivot sees the span; 0: uniform
   };
 
  private:

@@ -13,8 +13,6 @@ constexpr float kDefensive = 0.01f;
 
 }  // namespace
 
-template <int C> bool ProductSampling<C>::is_near(int i) const { return foot_.is_near(record_.segment(i)); }
-
 template <int C>
 ProductSampling<C>::ProductSampling(const MarchRecord<C>& record, const float* p, const Ray& ray,
                                     const LightPivot& pivot, Interval lit, const PhaseFunction* phase, Arena& arena)

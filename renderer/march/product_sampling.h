@@ -34,11 +34,12 @@ template <int C> class ProductSampling {
   DrawnSegment draw(float u) const { return draw_segment(cdf_, record_.n, u); }
   SampledPoint<C> place(DrawnSegment drawn) const;
 
-  /// Of a segment.
+  /// As in DensitySampling.
+  bool is_looked_up(int segment) const { return density_.is_looked_up(segment) && !is_near(segment); }
   float probability(int segment) const { return (cdf_[segment + 1] - cdf_[segment]) / cdf_[record_.n]; }
 
  private:
-  bool is_near(int segment) const;
+  bool is_near(int segment) const { return foot_.is_near(record_.segment(segment)); }
 
   const MarchRecord<C>& record_;
   const float* p_;

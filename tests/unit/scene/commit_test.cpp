@@ -47,6 +47,25 @@ TEST(Commit, AsksForNoMoreThanTheSceneNeeds) {
   EXPECT_EQ(committed(description)->lights.size(), 2u);
 }
 
+TEST(Commit, LightsAreLargeWhereTheyLookLargerThanThePhaseFunctionIsWide) {
+  Node description = empty_scene();
+  Node& v = add_volume(description, "homogeneous");
+  set(v, "phase.type", "henyey_greenstein");
+  set(v, "phase.g", "0.9");
+  set(add_light(description, "quad"), "corner", "0,0,1000");
+  add_light(description, "point");
+  EXPECT_FALSE(committed(description)->needs.large_lights) << "far away, and a point";
+  set(description, "lights.0.corner", "0,0,0");
+  EXPECT_TRUE(committed(description)->needs.large_lights) << "inside the medium";
+  set(description, "volumes.0.phase.g", "0");
+  EXPECT_FALSE(committed(description)->needs.large_lights) << "no light is wider than all directions";
+  set(description, "lights.0.enabled", "false");
+  set(description, "volumes.0.phase.g", "0.9");
+  EXPECT_FALSE(committed(description)->needs.large_lights) << "switched off";
+  set(add_light(description, "directional"), "angular_diameter_deg", "120");
+  EXPECT_TRUE(committed(description)->needs.large_lights) << "half of the sky";
+}
+
 TEST(Commit, CoefficientsComeFromTheAlbedoUnlessTheyAreGiven) {
   Node description = empty_scene();
   Node& v = add_volume(description, "homogeneous");
