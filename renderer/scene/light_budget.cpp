@@ -14,7 +14,7 @@ constexpr double kRay = 500, kSegment = 3, kSample = 80;
 // medium is all there is, the samples of a march are stratified, and their error falls faster than their cost grows.
 // Elsewhere much of the error is not theirs to mend: it comes from where the ray goes on, from edges of surfaces, from
 // the glow. Least error at equal time over the scenes that ship.
-constexpr double kAlone = 3.0, kAmongOthers = 0.5;
+constexpr double kAlone = 4.0, kAmongOthers = 0.5;
 
 constexpr int kMost = 16;
 
