@@ -158,6 +158,7 @@ template <int C> bool LightBatch<C>::look_closely(int k) {
 template <int C> void LightBatch<C>::find_pdfs() {
   LaneArray<float> begin, end;
   for (int k = 0; k < n_; ++k) {
+    if (!samples_[k].is_aimed()) continue;
     const Interval part = follows(k, segment_[k]) ? Interval{t_[k], t_[k]} : record_.segment(segment_[k]);
     begin[k] = part.begin, end[k] = part.end;
   }
