@@ -4,7 +4,7 @@ namespace brume {
 
 /// Share of the directions at x that are drawn by the scatterer.
 template <int C> float LightTechnique<C>::chance_share(Vec3 x, float peak) const {
-  return light_.solid_angle(x) * peak > 1 ? 0.5f : 0.0f;
+  return is_large(light_.solid_angle(x), peak) ? 0.5f : 0.0f;
 }
 
 /// Blackens what a surface keeps away.

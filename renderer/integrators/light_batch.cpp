@@ -11,8 +11,9 @@ template <int C> struct LightBatch<C>::Sample {
   LightPoint point;
   ShadowNumbers numbers;
   DistanceTechnique technique;
-  bool combined;  // as in Technique
-  bool plain;     // all that there is to know of the light is its point
+  bool combined;      // as in Technique
+  bool plain;         // all that there is to know of the light is its point
+  bool near = false;  // to the light's point, in a segment that varies: the record knows another place of it only
 
   bool is_about() const { return technique == DistanceTechnique::Equiangular; }
   /// Whether a density about its point counts.
@@ -38,7 +39,7 @@ template <int C> bool LightBatch<C>::is_plain(const Light& light) const {
   if (record_.medium_density || scene.surfaces || light.kind() == LightPoint::Kind::Environment || light.own_shadow())
     return false;
   return !scene.needs.large_lights ||
-         light.largest_solid_angle({ray_.origin, ray_.direction, record_.span()}) * scene.phase_peak <= 1;
+         !is_large(light.largest_solid_angle({ray_.origin, ray_.direction, record_.span()}), scene.phase_peak);
 }
 
 template <int C>
@@ -59,11 +60,11 @@ void LightBatch<C>::add(const Technique& technique, bool plain, float u, Vec2 u_
   if (++n_ == kCapacity) finish();
 }
 
-/// @param elsewise  density there by the technique that knows nothing of the point of the light
-template <int C> void LightBatch<C>::put(int k, const RayPoint<C>& at, float elsewise) {
+/// @param unaimed  density there by the technique that knows nothing of the point of the light
+template <int C> void LightBatch<C>::put(int k, const RayPoint<C>& at, float unaimed) {
   t_[k] = at.t, segment_[k] = at.segment;
   for (int c = 0; c < C; ++c) weights_.scattered[c][k] = at.sigma_s[c] * at.transmittance[c], weights_.left[c][k] = 0;
-  weights_.elsewise[k] = elsewise;
+  weights_.unaimed[k] = unaimed;
 }
 
 /// At the place where a segment was looked up.
@@ -77,7 +78,7 @@ template <int C> void LightBatch<C>::put_looked_up(int k, int segment, float pro
     weights_.scattered[c][k] = record_.sigma_s[channel][segment] * record_.transmittance[channel][segment];
     weights_.left[c][k] = record_.sigma_t[channel][segment] * before;  // still as an optical depth
   }
-  weights_.elsewise[k] = probability / length;
+  weights_.unaimed[k] = probability / length;
 }
 
 template <int C>
@@ -125,7 +126,7 @@ template <int C> void LightBatch<C>::place_about() {
     }
     const RayPoint<C> at = evaluate(record_, t[k], i);
     put(k, at, density_.pdf(at));
-    if (!record_.is_homogeneous(i)) s.plain = false;  // the record knows another place of the segment only
+    s.near = !record_.is_homogeneous(i);
   }
 }
 
@@ -141,7 +142,7 @@ template <int C> bool LightBatch<C>::look_closely(int k) {
     return in.by_chance;
   };
   const int i = segment_[k];
-  if (s.is_about() && !record_.is_homogeneous(i) && about_.is_near(k, record_.segment(i))) {
+  if (s.near) {
     const Collision<C> there =
         collision_at<C>(scene.media, ray_, t_[k], scene.render.time, context_.arena, context_.statistics.march);
     const Spectrum<C> transmittance = evaluate(record_, t_[k], i).transmittance;
@@ -184,7 +185,7 @@ template <int C> void LightBatch<C>::finish() {
   for (int c = 0; c < C; ++c) exp_minus(weights_.left[c].v, n_);
   bool aimed_anew = false;
   for (int k = 0; k < n_; ++k)
-    if (!samples_[k].plain) aimed_anew |= look_closely(k);
+    if (!samples_[k].plain || samples_[k].near) aimed_anew |= look_closely(k);
   if (aimed_anew) about_.measure(ray_, n_);
   if (aimed) find_pdfs();
   carry(weights_, lights_, beta_, scene.render.mis_heuristic, n_);

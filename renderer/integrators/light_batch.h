@@ -16,8 +16,9 @@ Interval lit_part(const MarchRecord<C>& record, const Ray& ray, const Light& lig
 
 /// Samples of the light that is scattered once along a recorded ray towards its origin. Each is a point of a light and
 /// a place on the ray; what it carries, sigma_s T L_scattered over the densities, is handed to the shadows. A step of a
-/// sample waits for the one before it, but not for those of other samples, so each step is made for all of them, at
-/// SIMD width. Lives in the arena scope that was open when it was made.
+/// sample waits for the one before it, but not for those of other samples, so each step is made for all of them, and at
+/// SIMD width unless there is more to a sample than the medium and a point of a light. Lives in the arena scope that
+/// was open when it was made.
 template <int C> class LightBatch {
  public:
   /// @param record  distributed, with scattered() > 0.  @param beta  throughput at its start.  @param bounce  scattered
@@ -57,7 +58,7 @@ template <int C> class LightBatch {
 
   bool is_plain(const Light& light) const;
   void add(const Technique& technique, bool plain, float u, Vec2 u_point, const ShadowNumbers& numbers);
-  void put(int k, const RayPoint<C>& at, float elsewise);
+  void put(int k, const RayPoint<C>& at, float unaimed);
   void put_looked_up(int k, int segment, float probability);
   void place_about();
   /// @return whether it was met by chance, in another point, at which the lane is aimed now

@@ -21,9 +21,11 @@ HWY_INLINE V load(const LaneArray<float>& values, int i) { return hn::Load(D(), 
 /// mis_weight()
 HWY_INLINE V weight_of(V pdf, V other_pdf, MisHeuristic heuristic) {
   const V one = hn::Set(D(), 1);
-  const V r = hn::Div(hn::Min(pdf, other_pdf), hn::Max(pdf, other_pdf));
+  const V zero = hn::Zero(D()), least = hn::Min(pdf, other_pdf);
+  const V r = hn::IfThenElseZero(hn::Gt(least, zero), hn::Div(least, hn::Max(pdf, other_pdf)));
   const V smaller = heuristic == MisHeuristic::Power ? hn::Mul(r, r) : r;
-  return hn::Div(hn::IfThenElse(hn::Ge(pdf, other_pdf), one, smaller), hn::Add(one, smaller));
+  const V weight = hn::Div(hn::IfThenElse(hn::Ge(pdf, other_pdf), one, smaller), hn::Add(one, smaller));
+  return hn::IfThenElseZero(hn::Gt(pdf, zero), weight);
 }
 
 template <int C>
@@ -33,12 +35,12 @@ HWY_INLINE void carry_to(LightWeights<C>& lanes, const LightLanes& lights, Color
     const auto drawn = hn::Load(DI(), lanes.drawn.v + i);
     const auto is = [&](int bit) HWY_ATTR { return hn::RebindMask(d, hn::TestBit(drawn, hn::Set(DI(), bit))); };
     const auto about = is(LightWeights<C>::kAbout);
-    const V equiangular = load(lanes.equiangular, i), elsewise = load(lanes.elsewise, i);
-    const V directed = hn::Mul(elsewise, load(lanes.pdf_ratio, i));
+    const V equiangular = load(lanes.equiangular, i), unaimed = load(lanes.unaimed, i);
+    const V directed = hn::Mul(unaimed, load(lanes.pdf_ratio, i));
     const V combined = weight_of(hn::IfThenElse(about, equiangular, directed),
                                  hn::IfThenElse(about, directed, equiangular), heuristic);
     const V weight = hn::IfThenElse(is(LightWeights<C>::kCombined), combined, hn::Set(d, 1));
-    const V pdf = hn::IfThenElse(about, equiangular, elsewise);
+    const V pdf = hn::IfThenElse(about, equiangular, unaimed);
     const V counts = hn::Div(hn::Mul(load(lanes.factor, i), weight), pdf);
     const V seen = hn::Mul(load(lights.seen(), i), load(lanes.phase, i));
     const auto is_drawn = hn::Gt(pdf, hn::Zero(d));

@@ -11,7 +11,7 @@ template <int C> struct LightWeights {
   LaneArray<float> factor;  ///< one over the samples of the lane's technique, on average over the passes
   /// The densities of the distance, per world unit, by equi-angular sampling about the point of the light and by the
   /// technique that knows nothing of it.
-  LaneArray<float> equiangular, elsewise;
+  LaneArray<float> equiangular, unaimed;
   LaneArray<float> pdf_ratio;     ///< as in IncomingLight: the direction's density over that of the point
   LaneArray<std::int32_t> drawn;  ///< the bits below
 

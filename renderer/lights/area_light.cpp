@@ -36,10 +36,6 @@ std::optional<LightPivot> AreaLight::pivot() const {
                     .intensity = radiance_ * area_};
 }
 
-float AreaLight::largest_solid_angle(const Ray& ray) const {
-  return solid_angle(ray.at(std::clamp(dot(middle_ - ray.origin, ray.direction), ray.span.begin, ray.span.end)));
-}
-
 float AreaLight::solid_angle(Vec3 x) const {
   const float half_space = 2 * kPi, d2 = length_squared(middle_ - x);
   return half_space * d2 > area_ ? area_ / d2 : half_space;

@@ -14,7 +14,6 @@ class AreaLight : public Light {
   Interval lit_part(const LightPoint& point, const Ray& ray) const final;
   std::optional<LightHit> hit(const Ray& ray) const final;
   float solid_angle(Vec3 x) const override;
-  float largest_solid_angle(const Ray& ray) const final;
   std::optional<LightPivot> pivot() const final;
 
  protected:

@@ -9,20 +9,24 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 ImageEnvironment::ImageEnvironment(std::shared_ptr<const EnvironmentMap> map, Color scale, float rotation)
     : map_(std::move(map)), scale_(scale), cos_(std::cos(rotation)), sin_(std::sin(rotation)) {}
 
-LightPoint ImageEnvironment::point_at(Vec3 direction) const {
-  LightPoint point{.kind = LightPoint::Kind::Distant, .direction = direction};
+LightHit ImageEnvironment::seen_at(Vec3 direction) const {
   const Vec3 in_map = to_map(direction);
-  point.pdf = map_->pdf_w(in_map);
-  if (point.pdf > 0) point.sent = map_->radiance(in_map) * scale_ / point.pdf;
-  return point;
+  const float pdf = map_->pdf_w(in_map);
+  const Color radiance = map_->radiance(in_map) * scale_;
+  return {kInfinity,
+          radiance,
+          pdf,
+          {.kind = LightPoint::Kind::Distant,
+           .direction = direction,
+           .sent = pdf > 0 ? radiance / pdf : Color(),
+           .pdf = pdf}};
 }
 
-LightPoint ImageEnvironment::sample_point(Vec2 u) const { return point_at(from_map(map_->sample(u).direction)); }
+LightPoint ImageEnvironment::sample_point(Vec2 u) const { return seen_at(from_map(map_->sample(u).direction)).point; }
 
 std::optional<LightHit> ImageEnvironment::hit(const Ray& ray) const {
   if (ray.span.end != kInfinity) return std::nullopt;
-  const LightPoint point = point_at(ray.direction);
-  return LightHit{kInfinity, map_->radiance(to_map(ray.direction)) * scale_, point.pdf, point};
+  return seen_at(ray.direction);
 }
 
 }  // namespace brume

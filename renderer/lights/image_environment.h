@@ -17,7 +17,7 @@ class ImageEnvironment final : public Light {
   float solid_angle(Vec3 x) const override { return static_cast<void>(x), map_->solid_angle(); }
 
  private:
-  LightPoint point_at(Vec3 direction) const;
+  LightHit seen_at(Vec3 direction) const;
   Vec3 to_map(Vec3 d) const { return {cos_ * d.x + sin_ * d.y, cos_ * d.y - sin_ * d.x, d.z}; }
   Vec3 from_map(Vec3 d) const { return {cos_ * d.x - sin_ * d.y, cos_ * d.y + sin_ * d.x, d.z}; }
 

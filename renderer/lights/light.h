@@ -29,6 +29,10 @@ struct LightPivot {
   Color intensity = {};  ///< W/sr, along the normal of a flat light
 };
 
+/// Whether a light that looks so large is looked for by chance, too: larger than the peak of what scatters is wide.
+/// @param solid_angle  sr.  @param peak  1/sr
+inline bool is_large(float solid_angle, float peak) { return solid_angle * peak > 1; }
+
 /// Immutable; any thread.
 class Light {
  public:
@@ -58,11 +62,13 @@ class Light {
   /// Where a ray hits the light and what it sees there.
   virtual std::optional<LightHit> hit(const Ray& ray) const;
 
-  /// How large the light looks from x, sr, roughly; 0 for lights that no ray can hit.
+  /// How large the light looks from x, sr, roughly; 0 for lights that no ray can hit. Falls with the distance from the
+  /// pivot; of a light that has none it is the same everywhere.
   virtual float solid_angle(Vec3 x) const;
 
-  /// At most from anywhere on the ray.
-  virtual float largest_solid_angle(const Ray& ray) const { return solid_angle(ray.origin); }
+  /// At most, from anywhere on a ray or in a box.
+  float largest_solid_angle(const Ray& ray) const;
+  float largest_solid_angle(const Bounds3& box) const;
 
   bool visible_to_camera = false;
 };

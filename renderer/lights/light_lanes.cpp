@@ -43,7 +43,8 @@ void Look(LightLanes::Arrays& lanes, const Ray& ray, const LaneArray<float>& t, 
                hn::Add(hn::Mul(direction.z, at), origin.z)};
     const V3 place = load(lanes.place, i);
     const V3 to_light{hn::Sub(place.x, x.x), hn::Sub(place.y, x.y), hn::Sub(place.z, x.z)};
-    const V r2 = dot(to_light, to_light), r = hn::Sqrt(r2), inverse = hn::Div(one, r);
+    const V r = hn::Sqrt(dot(to_light, to_light));
+    const V inverse = hn::IfThenElseZero(hn::Gt(r, set(kAtTheLight)), hn::Div(one, r));  // no direction at the light
     const auto is_distant = is(LightLanes::kDistant);
     const auto towards = [&](V to, V far) HWY_ATTR { return hn::IfThenElse(is_distant, far, hn::Mul(to, inverse)); };
     const V3 wi{towards(to_light.x, place.x), towards(to_light.y, place.y), towards(to_light.z, place.z)};
@@ -53,7 +54,7 @@ void Look(LightLanes::Arrays& lanes, const Ray& ray, const LaneArray<float>& t, 
     V s = hn::Mul(hn::Sub(c, load(lanes.begin, i)), load(lanes.slope, i));
     s = hn::Min(hn::Max(s, zero), one);
     s = hn::IfThenElse(is(LightLanes::kSmooth), hn::Mul(hn::Mul(s, s), hn::NegMulAdd(set(2), s, set(3))), s);
-    const V seen = hn::IfThenElseZero(hn::Gt(r, set(kAtTheLight)), hn::Mul(s, hn::Mul(inverse, inverse)));
+    const V seen = hn::Mul(s, hn::Mul(inverse, inverse));
     store(x, lanes.x, i);
     store(wi, lanes.wi, i);
     store(hn::IfThenElse(is_distant, hn::Inf(d), r), lanes.distance, i);

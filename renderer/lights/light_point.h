@@ -44,7 +44,7 @@ struct LightPoint {
   Falloff falloff = {};  ///< about the normal
   Color sent = {};       ///< over the pdf of the point: of a finite one radiant intensity where the falloff is 1, W/sr;
                          ///< of a distant one normal irradiance, W/m^2
-  float pdf = 0;         ///< of a finite one per area, of a distant one per sr; 0: there is no other
+  float pdf = 0;         ///< of a finite one per area, of a distant one per sr; 0: the only point
 };
 
 /// Light arriving at a point from a LightPoint.

@@ -19,7 +19,7 @@ class EquiangularLanes {
   void aim(int lane, Vec3 pivot, Interval span);
 
   /// Finds where the pivots are, seen from the ray, and the angles under which they see their spans; to be called when
-  /// all lanes below n are aimed, which are those of the functions below.
+  /// those lanes below n are aimed that anyone asks for. The functions below are for lanes below n, too.
   void measure(const Ray& ray, int n);
 
   /// @param u  in [0, 1).  @param t  distances, one for each u

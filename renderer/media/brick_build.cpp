@@ -226,7 +226,7 @@ class BrickBuilder {
     });
   }
 
-  /// Calls f(place in bricks, table element) for the part of the tile that lies in the table. Throws TilesOverlap.
+  /// Calls f(place in bricks, table entry) for the part of the tile that lies in the table. Throws TilesOverlap.
   template <class F> void for_bricks(const TileBlock& tile, const F& f) {
     const Index64 low = Index64(tile.origin), last = low + Index64(tile.size - 1);
     Index64 from, to;
@@ -244,7 +244,7 @@ class BrickBuilder {
         for (std::int64_t z = from.z; z <= to.z; ++z) f(Index64(x, y, z), *element({x, y, z}));
   }
 
-  /// Table element of a place in bricks, if it lies in the table.
+  /// Table entry of a place in bricks, if it lies in the table.
   std::optional<std::size_t> element(Index64 place) const {
     const Index64 p = place - first_;
     for (int axis = 0; axis < 3; ++axis)

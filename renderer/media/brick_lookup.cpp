@@ -30,14 +30,14 @@ template <class T> HWY_INLINE void pass_through_memory(T*& p) { asm volatile("" 
 
 /// What one block hands from phase to phase.
 struct Scratch {
-  std::int32_t slot[kBlock];    // element of the brick table
+  std::int32_t slot[kBlock];    // entry of the brick table
   std::int32_t corner[kBlock];  // of the cell's low voxel within its brick
   float fx[kBlock], fy[kBlock], fz[kBlock];
   std::uint32_t voxels[kBlock / kChunk][8 * kChunk];  // of the corners, as the layout wants them
   bool filled[kBlock / kChunk];                       // false: the bricks of the chunk are all empty
 };
 
-/// From points to table elements, voxels and fractions.
+/// From points to table entries, voxels and fractions.
 class Addresses {
  public:
   using D = hn::CappedTag<float, kChunk>;
@@ -88,7 +88,7 @@ class Addresses {
       const V py = kAlongAxes ? hn::MulAdd(by, y, bo) : hn::MulAdd(bx, x, hn::MulAdd(by, y, hn::MulAdd(bz, z, bo)));
       const V pz = kAlongAxes ? hn::MulAdd(cz, z, co) : hn::MulAdd(cx, x, hn::MulAdd(cy, y, hn::MulAdd(cz, z, co)));
       // Inside is 0 <= p < end: as an unsigned number a float is the greater the farther it is from 0, and greater than
-      // all that are not negative if it is. Infinities and NaN are outside. Points outside read element 0 of the table,
+      // all that are not negative if it is. Infinities and NaN are outside. Points outside read entry 0 of the table,
       // which is brick 0, somewhere: it is 0 everywhere.
       const auto inside = hn::And(hn::And(hn::Lt(hn::BitCast(du, px), end_x), hn::Lt(hn::BitCast(du, py), end_y)),
                                   hn::Lt(hn::BitCast(du, pz), end_z));

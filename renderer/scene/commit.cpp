@@ -80,15 +80,6 @@ Result<void> add_surfaces(const Node& description, SceneCache& cache, Scene& sce
   return {};
 }
 
-/// See LightTechnique.
-bool has_large_lights(const Scene& scene) {
-  return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const auto& light) {
-    const auto pivot = light->pivot();
-    const Vec3d x = pivot ? min(max(Vec3d(pivot->position), scene.bounds.low), scene.bounds.high) : Vec3d();
-    return light->solid_angle(Vec3(x)) * scene.phase_peak > 1;
-  });
-}
-
 SceneNeeds needs_of(const Scene& scene) {
   SceneNeeds needs = scene.needs;
   needs.surfaces = scene.surfaces != nullptr;
@@ -101,7 +92,8 @@ SceneNeeds needs_of(const Scene& scene) {
   needs.overlap = scene.media.size() > 1;
   for (const auto& light : scene.lights)
     needs.equiangular |= light->sample_point({0.5f, 0.5f}).kind == LightPoint::Kind::Finite;
-  needs.large_lights = has_large_lights(scene);
+  for (const auto& light : scene.lights)
+    needs.large_lights |= is_large(light->largest_solid_angle(scene.bounds), scene.phase_peak);
   needs.product = needs.equiangular && scene.render.distance_sampling == DistanceSampling::Product;
   return needs;
 }

@@ -30,15 +30,17 @@ template <int C> void expect_what_the_equation_says(MisHeuristic heuristic) {
       lights.set(k, {});
       lights.replace(k, {0, 0, 1}, 1, {next(), next(), next()});
       w.factor[k] = next(), w.pdf_ratio[k] = next(), w.phase[k] = next();
-      w.equiangular[k] = next(), w.elsewise[k] = k == 5 ? 0 : next();
+      w.equiangular[k] = next(), w.unaimed[k] = k == 5 ? 0 : next();
       w.drawn[k] = (k % 2 ? LightWeights<C>::kAbout : 0) | (k % 4 > 1 ? LightWeights<C>::kCombined : 0);
-      if (k == 9) w.equiangular[k] = 0;
+      if (k == 9 || k == 11) w.equiangular[k] = 0;
+      if (k == 7) w.unaimed[k] = 0;
+      if (k == 11) w.unaimed[k] = 0;
       for (int c = 0; c < C; ++c) w.scattered[c][k] = next(), w.left[c][k] = 1 / (1 + next());
     }
     carry(w, lights, beta, heuristic, n);
     for (int k = 0; k < n; ++k) {
       const bool about = w.drawn[k] & LightWeights<C>::kAbout, combined = w.drawn[k] & LightWeights<C>::kCombined;
-      const float drawn = about ? w.equiangular[k] : w.elsewise[k], directed = w.elsewise[k] * w.pdf_ratio[k];
+      const float drawn = about ? w.equiangular[k] : w.unaimed[k], directed = w.unaimed[k] * w.pdf_ratio[k];
       const float weight = !combined ? 1
                            : about   ? mis_weight(heuristic, w.equiangular[k], directed)
                                      : mis_weight(heuristic, directed, w.equiangular[k]);

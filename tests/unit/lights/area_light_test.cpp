@@ -293,5 +293,31 @@ TEST(AreaLight, SolidAngleIsRoughlyRight) {
   EXPECT_LE(sphere().solid_angle(kCenter), 4 * kPi);
 }
 
+TEST(AreaLight, LooksLargestFromTheNearestPointOfARayOrABox) {
+  const std::unique_ptr<Light> lights[] = {std::make_unique<DiscLight>(disc()),
+                                           std::make_unique<SphereLight>(sphere())};
+  for (const auto& light : lights)
+    for (std::uint32_t i = 0; i < 200; ++i) {
+      const auto place = [&](int k) {
+        const Vec2 a = random_pair(i, k), b = random_pair(i, k + 1);
+        return Vec3(6 * a.x - 3, 6 * a.y - 3, 6 * b.x - 3);
+      };
+      const Vec3 from = place(0), to = place(2);
+      const Ray ray{from, normalize(to - from), {0.1f, length(to - from)}};
+      const Bounds3 box{min(Vec3d(from), Vec3d(to)), max(Vec3d(from), Vec3d(to))};
+      float on_ray = 0, in_box = 0;
+      for (int k = 0; k <= 1000; ++k) {
+        const float s = static_cast<float>(k) / 1000;
+        on_ray = std::max(on_ray, light->solid_angle(ray.at(ray.span.begin + s * ray.span.length())));
+        const Vec3 inside(from.x + (to.x - from.x) * random_pair(i, 10 + k).x,
+                          from.y + (to.y - from.y) * random_pair(i, 10 + k).y, from.z + (to.z - from.z) * s);
+        in_box = std::max(in_box, light->solid_angle(inside));
+      }
+      ASSERT_GE(light->largest_solid_angle(ray), on_ray * (1 - 1e-5f));
+      ASSERT_LE(light->largest_solid_angle(ray), on_ray * 1.02f);
+      ASSERT_GE(light->largest_solid_angle(box), in_box * (1 - 1e-5f));
+    }
+}
+
 }  // namespace
 }  // namespace brume

@@ -84,6 +84,7 @@ TEST_P(LightLanesAt, NothingIsReceivedAtTheLightItself) {
   t[0] = 0;
   lanes.look({{1, 2, 3}, {0, 0, 1}}, t, 1);
   EXPECT_EQ(lanes.seen()[0], 0);
+  EXPECT_TRUE(std::isfinite(lanes.cosine()[0])) << "a phase function is asked for it";
 }
 
 TEST_P(LightLanesAt, OtherThingsCanBeSeenInstead) {
