@@ -70,15 +70,14 @@ template <int C> void LightBatch<C>::put(int k, const RayPoint<C>& at, float una
 /// At the place where a segment was looked up.
 /// @param probability  with which the technique that knows nothing of the light's point draws the segment
 template <int C> void LightBatch<C>::put_looked_up(int k, int segment, float probability) {
-  const auto [begin, end] = record_.segment(segment);
-  const float length = end - begin, before = record_.offset * length;
-  t_[k] = begin + before, segment_[k] = segment;
+  const float before = record_.looked_up_behind(segment);
+  t_[k] = record_.t[segment] + before, segment_[k] = segment;
   for (int c = 0; c < C; ++c) {
     const auto channel = static_cast<std::size_t>(c);
     weights_.scattered[c][k] = record_.sigma_s[channel][segment] * record_.transmittance[channel][segment];
     weights_.left[c][k] = record_.sigma_t[channel][segment] * before;  // still as an optical depth
   }
-  weights_.unaimed[k] = probability / length;
+  weights_.unaimed[k] = probability / record_.segment(segment).length();
 }
 
 template <int C>

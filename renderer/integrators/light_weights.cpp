@@ -18,7 +18,9 @@ using V = hn::Vec<D>;
 
 HWY_INLINE V load(const LaneArray<float>& values, int i) { return hn::Load(D(), values.v + i); }
 
-/// mis_weight()
+/// Of samples drawn with density pdf when another technique, with as many samples, could have drawn them with density
+/// other_pdf. Veach & Guibas 1995, "Optimally Combining Sampling Techniques", equations 14 and 16 (exponent 2). Divided
+/// through by the larger pdf, so that no square overflows.
 HWY_INLINE V weight_of(V pdf, V other_pdf, MisHeuristic heuristic) {
   const V one = hn::Set(D(), 1);
   const V zero = hn::Zero(D()), least = hn::Min(pdf, other_pdf);

@@ -21,14 +21,14 @@ template <int C> struct LightWeights {
 
   LaneArray<float> carried[3];  ///< what comes of it: radiance if nothing is in the shadow ray's way
 
-  static constexpr std::int32_t kAbout = 1;  ///< by equi-angular sampling
-  static constexpr std::int32_t kCombined =
-      2;  ///< the other one of the two might have drawn the same distance and direction
+  static constexpr std::int32_t kAbout = 1;     ///< by equi-angular sampling
+  static constexpr std::int32_t kCombined = 2;  ///< the other of the two might have drawn the same place and direction
 };
 
 /// For each lane below n
 ///   carried = beta * scattered left * phase * irradiance * factor * weight / pdf,
-/// with the pdf of the technique that drew it and mis_weight() where two are combined; 0 where the pdf is.
+/// with the pdf of the technique that drew it and the weight of the heuristic where two are combined; 0 where the pdf
+/// is.
 /// @param beta  throughput of the path up to the ray
 template <int C>
 void carry(LightWeights<C>& lanes, const LightLanes& lights, Color beta, MisHeuristic heuristic, int n);

@@ -25,7 +25,6 @@ template <int C> class MarchedShadows {
 
  private:
   static constexpr int kWaiting = 32;  // at most; with some thirty steps each they fill the look-ups' vectors
-
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
   void play_roulette();
@@ -35,9 +34,9 @@ template <int C> class MarchedShadows {
   SampleContext& context_;
   ShadowRays rays_;
   std::span<Color> carried_;
-  float carried_sum_ = 0, carried_least_ = kInfinity;  // luminances of those that wait
   std::span<int> index_;
   std::span<Spectrum<C>> transmittances_;
+  float carried_sum_ = 0, carried_least_ = kInfinity;  // luminances of those that wait
   Color sum_;
 };
 

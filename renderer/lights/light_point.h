@@ -15,7 +15,6 @@ struct Falloff {
   bool two_sided = false;       ///< counts |c|
   bool smooth = false;
 
-  static constexpr Falloff even() { return {}; }
   static constexpr Falloff lambertian(bool two_sided) { return {0, 1, two_sided}; }
   /// Nothing up to cos_outer, everything from cos_inner on, which may be the same.
   static Falloff cone(float cos_outer, float cos_inner) {

@@ -59,6 +59,8 @@ template <int C> struct MarchRecord {
   Interval span() const { return {t[0], t[n]}; }
   Segments segments() const { return {t, n, inverse_step > 0 ? longest : 0}; }
   Interval segment(int i) const { return {t[i], t[i + 1]}; }
+  /// How far behind its begin a segment that varies was looked up.
+  float looked_up_behind(int i) const { return offset * segment(i).length(); }
   bool is_homogeneous(int i) const { return homogeneous && homogeneous[i]; }
   /// Nothing scatters in the segment.
   bool is_clear(int i) const {

@@ -44,8 +44,7 @@ template <int C> RayPoint<C> evaluate(const MarchRecord<C>& rec, float t, int se
 }
 
 template <int C> RayPoint<C> looked_up_point(const MarchRecord<C>& rec, int segment) {
-  const float begin = rec.t[segment];
-  return evaluate(rec, begin + rec.offset * (rec.t[segment + 1] - begin), segment);
+  return evaluate(rec, rec.t[segment] + rec.looked_up_behind(segment), segment);
 }
 
 template int find_segment<1>(const MarchRecord<1>&, float);

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "renderer/lights/point_light.h"
-#include "renderer/march/mis.h"
 #include "renderer/sampling/sampler.h"
+#include "tests/support/mis_weight.h"
 #include "tests/support/simd_levels.h"
 
 namespace brume {

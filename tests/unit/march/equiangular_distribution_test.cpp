@@ -4,8 +4,8 @@
 
 #include <set>
 
-#include "renderer/march/mis.h"
 #include "renderer/sampling/sampler.h"
+#include "tests/support/mis_weight.h"
 #include "tests/support/statistics.h"
 #include "tests/unit/march/pivot_placements.h"
 

@@ -1,4 +1,4 @@
-// Multiple importance sampling.
+// Multiple importance sampling, one sample at a time: what carry() is held against.
 #pragma once
 
 #include <algorithm>
